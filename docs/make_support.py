@@ -98,9 +98,9 @@ also that sync point of the block. The attribute `start` names a sync point of a
 _SYNC_POINTS = """\
 
 Every sync point is an attribute that can refer to another sync point. A `head` with a `repetition` n above 1 has
-`stroke:1` to `stroke:n` instead of `stroke`. A `speech` has its inline `<sync id="..."/>` elements between `start` and
-`end`. Blocks have the sync points `start`, `relax` and `end`, and those that they define: `b1:relax` refers to the
-block b1 unless a behavior of the same block is named b1, and `b1:bml:relax` always refers to the block.
+`stroke:1` to `stroke:n`, and `stroke` denotes the first. A `speech` has its inline `<sync id="..."/>` elements between
+`start` and `end`. Blocks have the sync points `start`, `relax` and `end`, and those that they define: `b1:relax`
+refers to the block b1 unless a behavior of the same block is named b1, and `b1:bml:relax` always refers to the block.
 
 An attribute without a namespace that is not in these tables is ignored with a warning (`PARSING_FAILURE`). An attribute
 with an unreadable value drops its behavior with the same warning.

@@ -9,7 +9,7 @@ from reactive_realizer.binding.asset_file import XmlElement, asset_error, attrib
 from reactive_realizer.binding.spec_reader import pairs, part, read_spec
 from reactive_realizer.binding.unit_spec import UnitSpec, unit_id
 from reactive_realizer.binding.unit_specs import UnitSpecs
-from reactive_realizer.bml.vocabulary import StanceType
+from reactive_realizer.bml.vocabulary import PosePart, StanceType
 from reactive_realizer.file_cache import remembered
 
 _log = logging.getLogger(__name__)
@@ -19,11 +19,29 @@ _CONTROLLER = "PhysicalController"
 
 _SPECS: Mapping[str, tuple[str, str | None]] = {
     "MotionUnitSpec": ("MotionUnit", None),
+    "TimedMotionUnitSpec": ("TimedMotionUnit", None),
     "RestGazeSpec": ("RestGaze", "gazeShift"),
 }
 """Entry element -> the child element that names the unit, and the behavior if the entry is always for the same one."""
 
 _REST_POSE = "RestPoseSpec"
+
+_STANCE = "stance"
+
+
+@dataclass(frozen=True, slots=True)
+class RestPose:
+    """The rest pose of a stance, or of a posture that also has other poses.
+
+    Attributes:
+        stance: of the posture.
+        poses: part of the body -> lexeme, in capitals and with ``_``, of the poses that the posture must have.
+        file: with the pose of the whole posture.
+    """
+
+    stance: StanceType
+    poses: Mapping[PosePart, str]
+    file: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,10 +49,10 @@ class GestureBinding(UnitSpecs):
     """The entries of one or more gesture bindings, in order.
 
     Attributes:
-        rest_poses: stance, as BML spells it -> file of its rest pose.
+        rest_poses: of stances and postures, in order.
     """
 
-    rest_poses: Mapping[str, str]
+    rest_poses: tuple[RestPose, ...]
 
     @staticmethod
     @remembered
@@ -52,7 +70,7 @@ class GestureBinding(UnitSpecs):
         poses = (pose for element in elements if element.tag == _REST_POSE for pose in _rest_poses(element))
         return GestureBinding(
             tuple(_spec(element, *_SPECS[element.tag]) for element in elements if element.tag in _SPECS),
-            dict(reversed(list(poses))),  # the first pose for a stance wins, as with specs
+            tuple(poses),
         )
 
 
@@ -62,21 +80,28 @@ def _spec(element: XmlElement, name: str, behavior: str | None) -> UnitSpec:
     spec = read_spec(
         element, unit_id(attribute(unit, "class")) if kind == "class" else kind, unit.get("file"), behavior
     )
-    if spec.file is None and "class" not in unit.attrib and not {"file", "name"} & set(spec.parameter_map.values()):
+    named = spec.file is not None or "class" in unit.attrib or {"file", "name"} & set(spec.parameter_map.values())
+    if not named and not len(unit):
         raise asset_error(unit, "neither a file nor a class")
     if kind == _CONTROLLER and "class" in unit.attrib:
         return replace(spec, defaults={"class": attribute(unit, "class"), **spec.defaults})
     return spec
 
 
-def _rest_poses(element: XmlElement) -> Iterator[tuple[str, str]]:
-    pose, stance = part(element, "RestPose"), pairs(element, "constraints/constraint", "name", "value").get("stance")
+def _rest_poses(element: XmlElement) -> Iterator[RestPose]:
+    pose, constraints = part(element, "RestPose"), pairs(element, "constraints/constraint", "name", "value")
+    values = {name.upper(): value.upper().replace("-", "_") for name, value in constraints.items()}
+    stance = values.pop(_STANCE.upper(), None)
+    unknown = [name for name in values if name not in list(PosePart)]
     if stance is None or "file" not in pose.attrib:
         _log_skipped(element, "no stance or no file")
-    elif stance.upper() not in list(StanceType):
+    elif stance not in list(StanceType):
         _log_skipped(element, f"stance='{stance}': known are {', '.join(StanceType)}")
+    elif unknown:
+        _log_skipped(element, f"a constraint on {unknown[0]}: known are {_STANCE}, {', '.join(PosePart)}")
     else:
-        yield stance.upper(), attribute(pose, "file")
+        poses = {PosePart(name): value for name, value in values.items()}
+        yield RestPose(StanceType(stance), poses, attribute(pose, "file"))
 
 
 def _log_skipped(element: XmlElement, reason: str) -> None:

@@ -85,11 +85,6 @@ class Behavior:
         return self.OPEN_POINTS
 
     @classmethod
-    def sync_attributes(cls, values: Mapping[str, object]) -> SyncPoints:
-        """The sync points that may be attributes of a behavior with these values, by field."""
-        return cls.SYNC_POINTS
-
-    @classmethod
     def complete_syncs(
         cls, syncs: Mapping[str, SyncRef], values: Mapping[str, object], namespace: str
     ) -> Mapping[str, SyncRef]:

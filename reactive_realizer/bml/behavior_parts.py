@@ -24,6 +24,8 @@ from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, is_core, n
 from reactive_realizer.bml.vocabulary import PosePart
 from reactive_realizer.errors import Fault, RealizerError
 
+_MARK: Final = "sync"
+_MARK_ATTRIBUTES: Final = tuple(each.name for each in attributes_of(Mark))
 _RECORDING_FILES: Final = {"file": ("ref",), "audiofile": ("filename", "fileName")}
 """The elements that name the file of a recording, and the attributes that hold its name."""
 
@@ -32,10 +34,10 @@ def read_speech(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str
     """The text and the marks of a speech, from its ``<text>``.
 
     Raises:
-        RealizerError: there is not exactly one text, it is too long, or a mark has no id of its own.
+        RealizerError: there is not exactly one text, or it is too long.
     """
     text_element = _only_text(tree, source)
-    notes += source.unknown_children(text_element, ["sync"])
+    notes += source.unknown_parts(text_element, [], [_MARK])
     text = ""
     places: dict[str, int] = {}
     for piece in _pieces(text_element):
@@ -43,7 +45,11 @@ def read_speech(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str
             text = _joined(text, piece)
             _check_length(text, text_element, source)
         else:
-            places[_new_mark_id(piece, places, source)] = len(text)
+            notes += source.unknown_parts(piece, _MARK_ATTRIBUTES)
+            try:
+                places[_new_mark_id(piece, places, source)] = len(text)
+            except RealizerError as refused:
+                notes.append(refused.fault)
     text = text.rstrip()
     marks = tuple(Mark(id=name, char_index=min(at, len(text))) for name, at in places.items())
     return {"text": text, "marks": marks}
@@ -179,7 +185,9 @@ def _pieces(text_element: Tree) -> Iterator[str | Tree]:
     """Text and inline sync points in document order; other elements give their text only."""
     yield text_element.text or ""
     for child in text_element:
-        yield child if is_core(child) and name_of(child) == "sync" else "".join(map(str, child.itertext()))
+        if is_core(child) and name_of(child) == _MARK:
+            yield child
+        yield "".join(map(str, child.itertext()))
         yield child.tail or ""
 
 

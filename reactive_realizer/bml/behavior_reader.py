@@ -81,7 +81,7 @@ def _known(tree: Tree, element: Element, source: BlockSource, place: dict[str, A
     if element.behavior in _READ_PARTS:
         values |= _READ_PARTS[element.behavior](tree, source, notes)
     values["namespace"] = namespace = namespace_of(tree) if element.continuous else element.namespace
-    points = [*element.behavior.sync_attributes(values), *_own_points(tree, element, source)]
+    points = [*element.sync_points, *_own_points(tree, element, source)]
     names = [*element.names, *points]
     if element.behavior.ANY_CONTENT:
         notes += source.unknown_attributes(tree, names)

@@ -203,12 +203,6 @@ class Head(Behavior):
         strokes = (f"stroke:{number}" for number in range(1, self.repetition + 1))
         return (*_STROKE_POINTS[:3], *strokes, *_STROKE_POINTS[4:])
 
-    @classmethod
-    def sync_attributes(cls, values: Mapping[str, object]) -> SyncPoints:
-        """A head behavior with several strokes has no ``stroke`` attribute."""
-        several = values.get("repetition", 1) != 1
-        return tuple(point for point in _STROKE_POINTS if point != "stroke") if several else _STROKE_POINTS
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeadDirectionShift(Behavior):

@@ -161,7 +161,15 @@ class BlockSource:
 
     def unknown_content(self, tree: Tree, attributes: Iterable[str], children: Iterable[str] = ()) -> list[Fault]:
         """A fault for each kind of content other than these attributes and children; such content is ignored."""
-        return [*self.foreign_attributes(tree), *self.unknown_core_content(tree, attributes, children)]
+        return [*self.unknown_parts(tree, attributes, children), *self.stray_text(tree)]
+
+    def unknown_parts(self, tree: Tree, attributes: Iterable[str], children: Iterable[str] = ()) -> list[Fault]:
+        """The same for an element that may contain text."""
+        return [
+            *self.foreign_attributes(tree),
+            *self.unknown_attributes(tree, attributes),
+            *self.unknown_children(tree, children),
+        ]
 
     def unknown_core_content(self, tree: Tree, attributes: Iterable[str], children: Iterable[str] = ()) -> list[Fault]:
         """The same, without attributes of other namespaces, which an engine may understand."""

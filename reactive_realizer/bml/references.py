@@ -14,7 +14,7 @@ from reactive_realizer.bml.faults import (
     UnknownSync,
 )
 from reactive_realizer.bml.names import ANTICIPATORS, Location
-from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.bml.sync_ref import SyncRef, named_point
 from reactive_realizer.errors import Fault
 
 Points = Callable[[Behavior], Collection[str] | None]
@@ -127,7 +127,7 @@ def _fault(
     elif behavior is None:
         another = ref.block is None and ref.behavior != block.id
         fault = unknown_behavior(ref, behaviors, others(ref.behavior) if another else ())
-    elif (those := points(behavior)) is None or ref.sync in those:
+    elif (those := points(behavior)) is None or named_point(ref.sync or "", those) in those:
         return None
     else:
         fault = UnknownSync(reference=str(ref), behavior=ref.behavior, sync=ref.sync or "", known=tuple(those))

@@ -24,6 +24,9 @@ BLOCK_POINTS: Final = ("start", *OWN_BLOCK_POINTS, "relax", "end")
 DRAFT_SPELLINGS: Final[Mapping[str, str]] = MappingProxyType({"stroke_start": "strokeStart", "stroke_end": "strokeEnd"})
 """Names of sync points in the drafts before BML 1.0, to their names in BML 1.0."""
 
+_STROKE: Final = "stroke"
+FIRST_STROKE: Final = "stroke:1"
+
 _SECONDS = re.compile(rf"([+-]?)\s*({NUMBER})")
 _WITH_OFFSET = re.compile(rf"(.*?)\s*([+-])\s*({NUMBER})", re.DOTALL)
 _NAME = re.compile(r"[^\s:+]+")
@@ -117,6 +120,11 @@ class SyncRef:
         # Without an offset, "s-1" would be read as one second before "s".
         ambiguous = _WITH_OFFSET.fullmatch(sync)
         return f"{point}{_number(self.offset, sign='+')}" if self.offset or ambiguous else point
+
+
+def named_point(sync: str, points: Collection[str]) -> str:
+    """The one of some points that a name denotes: the stroke of a behavior with several strokes is the first."""
+    return FIRST_STROKE if sync == _STROKE and sync not in points and FIRST_STROKE in points else sync
 
 
 def _block_point(block: str | None, sync: str | None) -> str | None:

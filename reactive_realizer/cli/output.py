@@ -1,7 +1,8 @@
-"""Writes the output of a session: feedback as JSON lines, explanations as JSON, frames as an npz file."""
+"""Writes the output of a session: feedback as JSON lines, warnings, explanations as JSON, frames as an npz file."""
 
 import json
 import os
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import IO
@@ -10,6 +11,7 @@ import numpy as np
 
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.feedback.feedback_manager import Report
+from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -30,6 +32,12 @@ class FeedbackWriter:
         except BrokenPipeError:
             # The reader has closed the pipe, as `head` does. The session continues without this output.
             os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
+
+
+def print_warning(report: Report) -> None:
+    """Print a report to stderr if it is a warning."""
+    if isinstance(report.message, WarningFeedback):
+        print(f"{report.message.id}: {report.message.text}", file=sys.stderr)
 
 
 class Explainer:

@@ -15,7 +15,7 @@ from typing import IO
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import open_scene
 from reactive_realizer.bml.sync_ref import NUMBER
-from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder
+from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder, print_warning
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.clock import ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
@@ -73,6 +73,15 @@ class NeverEnters(Fault):
     file: str
     end: float
     time: float
+
+
+class CutShort(Fault):
+    """Blocks that are alive at the end of the session."""
+
+    code = "cut-short"
+    template = "the session ended at {end} s (--until), before the end of {blocks}"
+    end: float
+    blocks: tuple[str, ...]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -133,6 +142,7 @@ async def _realize(options: argparse.Namespace) -> int:
             clock = ManualClock() if options.clock == "virtual" else SystemClock()
             await run_until_done(scene.realizer, clock, options.until)
         _report_left_out(options.items, scene.realizer.time)
+        _report_cut_short(scene.realizer, options.until)
         return 1 if unread else _status(scene.realizer)
 
 
@@ -140,6 +150,12 @@ def _report_left_out(items: Iterable[InputFile], end: GlobalTime) -> None:
     for entry in items:
         if not is_due(entry.time, end):
             print(NeverEnters(file=str(entry.path), end=end, time=entry.time).sentence, file=sys.stderr)
+
+
+def _report_cut_short(realizer: Realizer, until: GlobalTime) -> None:
+    blocks = tuple(block.key.block for block in realizer.scheduler.blocks.asked_for)
+    if blocks and is_due(until, realizer.time):
+        print(CutShort(end=realizer.time, blocks=blocks).sentence, file=sys.stderr)
 
 
 async def _replay(options: argparse.Namespace) -> int:
@@ -168,8 +184,7 @@ def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
     if options.audio:
         realizer.hear(track.take)
     with _feedback(options.feedback) as stream:
-        if stream is not None:
-            realizer.feedback.listen(FeedbackWriter(stream))
+        realizer.feedback.listen(print_warning if stream is None else FeedbackWriter(stream))
         yield
     if options.frames:
         recorder.write(options.frames, realizer)

@@ -19,6 +19,7 @@ from reactive_realizer.bml.references import (
     unknown_block,
     unknown_block_point,
 )
+from reactive_realizer.bml.sync_ref import named_point
 from reactive_realizer.errors import Fault, RealizerError, WarningType
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.scheduler.block_composition import UnknownTargetBlock
@@ -180,7 +181,7 @@ def _unknown_points(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal) -> 
     for behavior in block.behaviors:
         known = rehearsal.points.get(behavior.id)
         for sync, ref in behavior.syncs.items():
-            if behavior.open_points and known is not None and sync not in known:
+            if behavior.open_points and known is not None and named_point(sync, known) not in known:
                 fault = UnknownSync(reference=str(ref), behavior=behavior.id, sync=sync, known=tuple(known))
                 yield _problem(fault, block, behavior)
 

@@ -12,7 +12,7 @@ from reactive_realizer.bml.block import Order as OrderConstraint
 from reactive_realizer.bml.faults import LostWith, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.bml.references import predictions_of, unknown_behavior, unknown_block, unknown_block_point
-from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS, SyncRef
+from reactive_realizer.bml.sync_ref import FIRST_STROKE, OWN_BLOCK_POINTS, SyncRef, named_point
 from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -111,8 +111,8 @@ class ReferenceResolver:
             raise RealizerError(LostWith(behavior=self._causes.get(ref.behavior, ref.behavior), reference=str(ref)))
         if unit is None:
             raise RealizerError(self._unknown(ref))
-        _check_sync(unit, ref.sync, ref)
-        return unit.open.get(ref.sync) or Point(ref.behavior, ref.sync)
+        sync = _sync_of(unit, ref.sync, ref)
+        return unit.open.get(sync) or Point(ref.behavior, sync)
 
     def mistyped_anticipator(self, anticipator: str, ref: SyncRef) -> Fault | None:
         """The fault of a reference to an anticipator that has almost the name of a known one."""
@@ -155,7 +155,7 @@ class ReferenceResolver:
         for sync, ref in unit.behavior.syncs.items():
             try:
                 self.locate(ref)
-                _check_sync(unit, sync, ref)
+                _sync_of(unit, sync, ref)
             except RealizerError as problem:
                 return problem.fault
         return WaitsForItself() if unit.timing.waits and self._waits_for_itself(unit) else None
@@ -191,20 +191,26 @@ class ReferenceResolver:
             raise RealizerError(unknown_block(ref, self._block.description, known))
         if ref.behavior is None and ref.sync in OWN_BLOCK_POINTS:
             ref = self._defining(other, ref)
-        peg = self._board.get(PegKey(*other.key, ref.behavior, ref.sync or "start"))
+        peg = self._peg(other, ref)
         if peg is not None and peg.depends_on(self._block.start):
             raise RealizerError(CyclicReference(block=self._block.key.block, reference=str(ref)))
         if peg is not None and ref.behavior not in other.dropped:
             return peg
         unit = next((unit for unit in other.units if unit.behavior.id == ref.behavior), None)
         if unit is not None:
-            _check_sync(unit, ref.sync or "", ref)
+            _sync_of(unit, ref.sync or "", ref)
         if ref.behavior not in _written(other):
             known = tuple(behavior.id for behavior in other.description.behaviors)
             raise RealizerError(UnknownReference(behavior=ref.behavior or "", reference=str(ref), known=known))
         if other.state is BlockState.IN_PREP:
             raise RealizerError(MutualReference(block=self._block.key.block, other=name, reference=str(ref)))
         raise RealizerError(LostWith(behavior=f"{name}:{ref.behavior}", reference=str(ref)))
+
+    def _peg(self, other: BMLBlock, ref: SyncRef) -> TimeCell | None:
+        sync = ref.sync or "start"
+        names = dict.fromkeys((sync, named_point(sync, (FIRST_STROKE,))))
+        pegs = (self._board.get(PegKey(*other.key, ref.behavior, name)) for name in names)
+        return next((peg for peg in pegs if peg is not None), None)
 
     def _defining(self, other: BMLBlock, ref: SyncRef) -> SyncRef:
         """The reference to the behavior that defines a sync point of another block (thesis 12.1.3).
@@ -291,7 +297,15 @@ def _own_ties(unit: PlanUnit, resolver: ReferenceResolver) -> Iterator[Tie]:
         if sync in unit.open:
             continue  # it waits for the point that its end names, and is not tied to it
         text, node = f"{id_}:{sync} = {ref}", resolver.locate(ref)
-        yield Tie(Point(id_, sync), node, ref.offset, id_, behavior.location, text, behavior.required)
+        yield Tie(
+            Point(id_, named_point(sync, unit.timing.points)),
+            node,
+            ref.offset,
+            id_,
+            behavior.location,
+            text,
+            behavior.required,
+        )
 
 
 def _synchronized(constraint: Synchronize, resolver: ReferenceResolver) -> list[Tie]:
@@ -331,7 +345,13 @@ def _written(block: BMLBlock) -> set[str]:
     return {behavior.id for behavior in block.description.behaviors} | block.description.unread
 
 
-def _check_sync(unit: PlanUnit, sync: str, ref: SyncRef) -> None:
-    if sync not in (known := unit.timing.points):
+def _sync_of(unit: PlanUnit, sync: str, ref: SyncRef) -> str:
+    """The sync point of a unit that a name denotes.
+
+    Raises:
+        RealizerError: there is none; the reference is for the message.
+    """
+    if (named := named_point(sync, known := unit.timing.points)) not in known:
         fault = UnknownSync(reference=str(ref), behavior=unit.behavior.id, sync=sync, known=known)
         raise RealizerError(fault)
+    return named

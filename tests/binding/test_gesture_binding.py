@@ -7,10 +7,11 @@ from typing import Any
 
 import pytest
 
-from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.binding.gesture_binding import GestureBinding, RestPose
 from reactive_realizer.binding.spec_reader import finite_numbers
 from reactive_realizer.binding.unit_spec import CLASS_NAMES
 from reactive_realizer.bml.names import BML, BMLT
+from reactive_realizer.bml.vocabulary import PosePart, StanceType
 from reactive_realizer.errors import RealizerError
 
 ASSETS = Path(str(files("reactive_realizer"))) / "assets"
@@ -80,7 +81,7 @@ def test_without_a_mode_entries_for_specific_hands_come_last(hands: GestureBindi
 
 def test_with_a_mode_entries_for_any_hands_are_no_second_choice(hands: GestureBinding) -> None:
     assert files_of(hands, lexeme="X", mode="LEFT_HAND") == ["any.xml", "left.xml"]
-    assert files_of(GestureBinding(hands.specs[::-1], {}), lexeme="X", mode="LEFT_HAND") == ["left.xml"]
+    assert files_of(GestureBinding(hands.specs[::-1], ()), lexeme="X", mode="LEFT_HAND") == ["left.xml"]
 
 
 def test_values_compare_without_case_and_with_either_hyphen(read: Callable[[str], GestureBinding]) -> None:
@@ -141,12 +142,32 @@ def test_a_class_of_a_published_binding_is_a_unit_here(
     )
 
 
-def test_a_stance_has_its_rest_pose_from_the_first_entry_that_names_one(read: Callable[[str], GestureBinding]) -> None:
-    pose = """<RestPoseSpec><constraints><constraint name="stance" value="{stance}"/></constraints>
-      <RestPose type="SkeletonPose" file="{file}"/></RestPoseSpec>"""
-    poses = [pose.format(stance="sitting", file="a.xml"), pose.format(stance="SITTING", file="b.xml")]
-    binding = read(f"<gesturebinding>{''.join(poses)}{pose.format(stance='LYING', file='c.xml')}</gesturebinding>")
-    assert binding.rest_poses == {"SITTING": "a.xml", "LYING": "c.xml"}
+def test_rest_poses_are_for_stances_and_for_poses_in_them(read: Callable[[str], GestureBinding]) -> None:
+    binding = read(
+        """<gesturebinding>
+          <RestPoseSpec><constraints><constraint name="stance" value="sitting"/></constraints>
+            <RestPose type="SkeletonPose" file="a.xml"/></RestPoseSpec>
+          <RestPoseSpec><constraints>
+              <constraint name="stance" value="STANDING"/><constraint name="arms" value="arms-spread"/>
+            </constraints><RestPose type="SkeletonPose" file="b.xml"/></RestPoseSpec>
+        </gesturebinding>"""
+    )
+    assert binding.rest_poses == (
+        RestPose(StanceType.SITTING, {}, "a.xml"),
+        RestPose(StanceType.STANDING, {PosePart.ARMS: "ARMS_SPREAD"}, "b.xml"),
+    )
+
+
+def test_an_entry_of_a_timed_motion_unit_is_one_of_a_kind_that_may_be_unknown(
+    read: Callable[[str], GestureBinding],
+) -> None:
+    binding = read(
+        """<gesturebinding><TimedMotionUnitSpec type="gesture">
+          <constraints><constraint name="lexeme" value="SALUTE"/></constraints>
+          <TimedMotionUnit type="MURML"><murml-description/></TimedMotionUnit>
+        </TimedMotionUnitSpec></gesturebinding>"""
+    )
+    assert [spec.unit for spec in binding.match("gesture", BML, {"lexeme": "SALUTE"})] == ["MURML"]
 
 
 @pytest.mark.parametrize(
@@ -155,14 +176,17 @@ def test_a_stance_has_its_rest_pose_from_the_first_entry_that_names_one(read: Ca
         ('<RestPose type="X"/>', "no stance or no file"),
         ('<constraints><constraint name="stance" value="SITING"/></constraints><RestPose type="X" file="a.xml"/>',
          "stance='SITING': known are SITTING, CROUCHING, STANDING, LYING"),
+        ('<constraints><constraint name="stance" value="SITTING"/><constraint name="mood" value="glad"/></constraints>'
+         '<RestPose type="X" file="a.xml"/>', "a constraint on MOOD: known are stance, ARMS"),
     ],
 )  # fmt: skip
-def test_a_rest_pose_without_a_file_or_a_known_stance_is_skipped_and_logged(
+def test_a_rest_pose_without_a_file_or_with_unknown_constraints_is_skipped_and_logged(
     read: Callable[[str], GestureBinding], caplog: pytest.LogCaptureFixture, content: str, reason: str
 ) -> None:
     binding = read(f"<gesturebinding>\n<RestPoseSpec>{content}</RestPoseSpec></gesturebinding>")
-    assert binding.rest_poses == {}
-    assert f"line 2, <RestPoseSpec>: {reason}; it is skipped" in caplog.text
+    assert binding.rest_poses == ()
+    assert f"line 2, <RestPoseSpec>: {reason}" in caplog.text
+    assert "it is skipped" in caplog.text
 
 
 def test_a_rest_gaze_plays_gaze_shifts(read: Callable[[str], GestureBinding]) -> None:
@@ -222,7 +246,7 @@ def test_an_invalid_binding_is_refused_with_file_line_element_and_reason(
 def test_a_binding_as_they_are_published_is_read_and_finds_its_entries(tests_data: Path) -> None:
     binding = GestureBinding.read(tests_data / "bindings" / "published.xml")
     assert len(binding.specs) == 13
-    assert binding.rest_poses.keys() == {"CROUCHING"}
+    assert [rest.stance for rest in binding.rest_poses] == ["CROUCHING"]
     (spec,) = binding.match("head", BML, {"lexeme": "OVER_THERE", "repetition": "2", "amount": "0.8"})
     assert spec.file is not None
     assert spec.file.endswith("headpolar.xml")
@@ -232,7 +256,7 @@ def test_a_binding_as_they_are_published_is_read_and_finds_its_entries(tests_dat
 def test_asaprealizers_binding_is_read_and_finds_its_nod(shared_cases: Path) -> None:
     binding = GestureBinding.read(shared_cases / "asap" / "gesturebinding" / "gesturebinding.xml")
     assert len(binding.specs) == 79
-    assert binding.rest_poses.keys() == {"SITTING"}
+    assert [rest.stance for rest in binding.rest_poses] == ["SITTING"]
     (spec,) = binding.match("head", BML, {"lexeme": "NOD", "repetition": "2", "amount": "0.8"})
     assert spec.file is not None
     assert spec.file.endswith("nod.xml")

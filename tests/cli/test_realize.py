@@ -128,12 +128,14 @@ def test_blocks_that_wait_forever_are_listed_at_the_end(
     assert feedback[-1][0] < 3
 
 
-def test_until_ends_a_session(
+def test_until_ends_a_session_and_names_the_blocks_that_it_cuts(
     realize: Callable[..., tuple[int, list[tuple[float, str]], str]], bml: Callable[..., str]
 ) -> None:
-    status, feedback, _ = realize(bml(block("b", '<wait id="w" duration="50"/>')), "--until", "1")
+    waits = [block(id_, f'<wait id="w" duration="{duration}"/>') for id_, duration in [("a", 0.5), ("b", 50), ("c", 9)]]
+    status, feedback, errors = realize(bml("".join(waits)), "--until", "1")
     assert status == 0
-    assert ids(feedback) == ["b:start", "b:w:start"]
+    assert [id_ for id_ in ids(feedback) if id_.endswith("end")] == ["a:w:end", "a:end"]
+    assert errors == "the session ended at 1.00 s (--until), before the end of b, c\n"
 
 
 @pytest.mark.parametrize(
@@ -165,6 +167,21 @@ def test_the_exit_status_is_2_for_a_missing_file_or_a_usage_error(
     assert captured.out == ""
     assert captured.err
     assert "Traceback" not in captured.err
+
+
+@pytest.mark.parametrize(
+    ("text", "status", "said"),
+    [
+        ("<bml/>", 1, "bml: line 1, column 1: the bml block has no id, so it is refused\n"),
+        (block("b", '\n<teleport id="t"/>'), 0, "b:t: line 2, column 1: <teleport> is not a behavior of BML 1.0"),
+        (HELLO, 0, ""),
+    ],
+)
+def test_without_feedback_the_warnings_go_to_stderr(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str], text: str, status: int, said: str
+) -> None:
+    assert main(["realize", bml(text), "--voice", "text"]) == status
+    assert capsys.readouterr().err.startswith(said)
 
 
 def test_only_feedback_goes_to_stdout_if_requested(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:

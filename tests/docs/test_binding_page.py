@@ -70,7 +70,7 @@ def test_the_binding_with_rest_poses_is_valid(tmp_path: Path) -> None:
     file = tmp_path / "gesturebinding.xml"
     file.write_text(example.text, encoding="utf-8")
     binding = GestureBinding.read(file)
-    assert binding.rest_poses == {"STANDING": "at_ease.xml"}
+    assert [(rest.stance, rest.file) for rest in binding.rest_poses] == [("STANDING", "at_ease.xml")]
     assert [(spec.behavior, spec.unit) for spec in binding.specs] == [("gazeShift", "rest-gaze")]
 
 

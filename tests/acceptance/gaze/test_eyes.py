@@ -5,11 +5,12 @@ from itertools import pairwise
 
 import pytest
 
+from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import FORWARD
 from reactive_realizer.engines.animation.gaze.eye_controller import saccade_duration, saccade_progress
 from reactive_realizer.engines.animation.gaze.eyes import EYE_RANGE
-from reactive_realizer.testing.pilot import RealizerPilot
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .seen import EYES, FAR, FRAME, GLANCE, PLATEAU, at, between, miss, put, sight, speeds
 
@@ -24,6 +25,18 @@ async def test_the_eyes_are_on_the_target_while_the_head_still_turns_and_until_i
     there = at(pilot, pilot.feedback.time("b:g:start") + saccade_duration(math.radians(30)) + FRAME)
     relax = at(pilot, pilot.feedback.time("b:g:relax"))
     assert max(miss(body, target) for body in pilot.bodies()[there:relax]) < 0.5
+
+
+async def test_a_gaze_in_the_first_frame_sets_out_from_rest() -> None:
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.watch()
+        pilot.block("b", '<gaze id="g" target="bluebox" influence="EYES" start="0"/>')
+        await pilot.advance(0.2)
+        target = (-1.2, 1.2, 1.5)  # in the default scene
+        misses = [miss(body, target) for body in pilot.bodies()]
+        assert misses[0] > 10
+        assert misses[0] > misses[1] > misses[2] > misses[-1]
+        assert misses[-1] < 3  # it is almost out of the range of the eyes
 
 
 @pytest.mark.parametrize("head", ['lexeme="NOD" repetition="4" amount="1"', 'lexeme="SHAKE" repetition="4" amount="1"'])

@@ -158,7 +158,7 @@ GOOD = bvh({}, {})
         (GOOD.replace("Zrotation", "Wrotation", 1), "line 5: there is no channel 'Wrotation'"),
         (GOOD.replace("JOINT Spine\n", "BONE Spine\n"), "found 'BONE' instead of JOINT, End Site or }"),
         (GOOD.replace("}\nMOTION", "MOTION"), "the HIERARCHY ends unexpectedly"),
-        (GOOD.replace("Frames: 2", "Frames: 3"), "numbers are not 3 frames of 60 numbers up to 1e"),
+        (GOOD.replace("Frames: 2", "Frames: 4"), "numbers are not 4 frames of 60 numbers up to 1e"),
         (GOOD.replace("Frames: 2", "Frames 2"), "'Frames: N' and 'Frame Time: s' must follow MOTION"),
         (GOOD.replace("Frame Time: 0.01", "Frame Time: 0"), "are not 2 frames of 60 numbers up to 1e.09, 0 s apart"),
         (GOOD.rstrip().removesuffix("0.000000") + "oops\n", "could not convert string to float: 'oops'"),
@@ -175,6 +175,10 @@ def test_errors_name_the_line(capture: Callable[[str], Capture], text: str, mess
         capture(text)
     assert with_reached_root.value.fault.code == "bad-capture"
     assert str(with_reached_root.value).startswith("some.bvh, line ")
+
+
+def test_a_file_that_counts_one_frame_more_than_it_has_is_read(capture: Callable[[str], Capture]) -> None:
+    assert len(capture(bvh({}, {}, {}).replace("Frames: 3", "Frames: 4")).frames) == 3
 
 
 def test_a_capture_with_unknown_joints_is_refused(capture: Callable[[str], Capture], skeleton: Skeleton) -> None:

@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.binding.gesture_binding import RestPose
+from reactive_realizer.bml.vocabulary import PosePart, StanceType
 from reactive_realizer.embodiment.body import Skeleton
 from reactive_realizer.embodiment.quaternion import angle
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
@@ -65,17 +67,29 @@ REST_POSE = """<SkeletonPose rotationEncoding="axisangles" parts="HumanoidRoot r
 
 def test_a_binding_may_set_a_rest_pose_and_the_feet_stay_on_the_ground(skeleton: Skeleton, own: Path) -> None:
     (own / "mine.xml").write_text(REST_POSE)
-    library = PostureLibrary(skeleton, Assets((own,)), {"STANDING": "mine.xml"})
+    library = PostureLibrary(skeleton, Assets((own,)), [RestPose(StanceType.STANDING, {}, "mine.xml")])
     body = library.body(BodyPosture())
     assert angle(body.rotation("l_shoulder")) == pytest.approx(0.4)
     assert body.root == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
     assert apart(body, body_in(skeleton), "l_elbow") < 1e-9
 
 
+def test_a_rest_pose_with_poses_is_only_for_postures_with_these(skeleton: Skeleton, own: Path) -> None:
+    (own / "mine.xml").write_text(REST_POSE)
+    spread = RestPose(StanceType.STANDING, {PosePart.ARMS: "ARMS_WIDE"}, "mine.xml")
+    library = PostureLibrary(skeleton, Assets((own,)), [spread])
+    assert library.body(BodyPosture()).pose == body_in(skeleton).pose
+    body = library.body(posture(ARMS="arms-wide", LEGS="LEGS_OPEN"))
+    assert angle(body.rotation("l_shoulder")) == pytest.approx(0.4)
+    assert body.rotation("l_hip") == body_in(skeleton, LEGS="LEGS_OPEN").rotation("l_hip")
+    with pytest.raises(RealizerError, match="ARMS_WIDE"):
+        library.check(posture("SITTING", ARMS="ARMS_WIDE"))
+
+
 def test_a_rest_pose_that_is_missing_is_logged_and_the_default_is_used(
     skeleton: Skeleton, caplog: pytest.LogCaptureFixture
 ) -> None:
-    library = PostureLibrary(skeleton, ASSET, {"SITTING": "nowhere.xml"})
+    library = PostureLibrary(skeleton, ASSET, [RestPose(StanceType.SITTING, {}, "nowhere.xml")])
     said = ["the default rest pose of SITTING is used: there is no asset named 'nowhere.xml'"]
     assert [record.getMessage() for record in caplog.records] == said, "before anybody sits"
     assert library.body(posture("SITTING")).pose == body_in(skeleton, "SITTING").pose

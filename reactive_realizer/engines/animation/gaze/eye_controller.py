@@ -105,6 +105,9 @@ class EyeController:
         resting = {eye: multiply(body.rotation(eye), resting.get(eye, IDENTITY)) for eye in sockets.places}
         points = {gaze: gaze.point(sockets.middle) for gaze in gazes if gaze.eyes > 0.0}
         goal = {eye: _eye_direction(eye, sockets, points, resting) for eye in sockets.places}
+        if not self._goal:  # before the first frame, the eyes rest
+            self._head = sockets.rotation
+            self._goal = {eye: _eye_direction(eye, sockets, {}, resting) for eye in sockets.places}
         since = self._changed_since(points, sockets.middle, now) if self._goal else None
         if since is not None:
             self._saccade = self._new_saccade(goal, since)

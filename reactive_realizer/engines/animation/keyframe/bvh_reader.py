@@ -105,6 +105,8 @@ class _CaptureReader:
             values = _values(words[5:])
         except ValueError as problem:
             raise self._bad(str(problem)) from problem
+        if values.size == (count - 1) * width:  # many exporters count the frames from 0 to the last one
+            count -= 1
         if count < 2 or step <= 0.0 or values.size != count * width or not (np.abs(values) <= _LARGEST).all():
             wanted = f"{count} frames of {width} numbers up to {_LARGEST:g}, {step:g} s apart"
             raise self._bad(f"the {values.size} numbers are not {wanted}, or there are fewer than two frames")

@@ -1,13 +1,14 @@
 """Postures by lexemes, and the bodies that posture files define for them."""
 
 import logging
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
 from reactive_realizer.binding.asset_file import first_asset
 from reactive_realizer.binding.faults import NoAsset
+from reactive_realizer.binding.gesture_binding import RestPose
 from reactive_realizer.bml.behaviors import Pose
 from reactive_realizer.bml.vocabulary import PosePart, StanceType
 from reactive_realizer.embodiment.body import Body, Skeleton
@@ -101,23 +102,22 @@ class PostureLibrary:
     figure's frame, m. So hands meet for any proportions. A lexeme that ends in NEUTRAL is the stance alone.
     """
 
-    def __init__(
-        self, skeleton: Skeleton, asset: Callable[[str], Path], rest_poses: Mapping[str, str] = MappingProxyType({})
-    ) -> None:
+    def __init__(self, skeleton: Skeleton, asset: Callable[[str], Path], rest_poses: Sequence[RestPose] = ()) -> None:
         """Create the postures of a skeleton.
 
         Args:
             skeleton: of the figure.
             asset: finds a file by name.
-            rest_poses: stance, as BML spells it -> SkeletonPose file with some of its joints, from a binding.
+            rest_poses: SkeletonPose files with some of the joints of stances and postures, from a binding. The one with
+                the most poses of a posture applies, and of equal ones the first.
         """
         self._skeleton = skeleton
         self._asset = asset
-        self._rest_poses = rest_poses
+        self._rest_poses = sorted(rest_poses, key=lambda rest: -len(rest.poses))
         self._lengths = _lengths(skeleton)
-        self._logged: set[StanceType] = set()
-        for stance in StanceType:
-            self._rest_pose(stance)
+        self._logged: set[str] = set()
+        for rest in rest_poses:
+            self._rotations(rest)
 
     def body(self, posture: BodyPosture) -> Body:
         """Return the figure in a posture. Its lowest part is on the ground, unless a file places the root.
@@ -125,9 +125,9 @@ class PostureLibrary:
         Raises:
             RealizerError: "no-posture": a pose does not exist, or does not apply to its part; or a file cannot be used.
         """
-        stand = self._stand(posture.stance)
-        body = stand
-        for pose in sorted(posture.poses, key=lambda pose: _ORDER.index(pose.part)):
+        stand, bound = self._stand(posture.stance), self._bound(posture)
+        body = stand if bound is None else _turned(stand, self._rotations(bound))
+        for pose in sorted(_unbound(posture, bound), key=lambda pose: _ORDER.index(pose.part)):
             animation = self._animation(posture.stance, pose)
             if animation is None:
                 joints = PART_JOINTS[pose.part] & body.pose.keys()
@@ -142,30 +142,36 @@ class PostureLibrary:
         Raises:
             RealizerError: as for `body`.
         """
-        for pose in posture.poses:
+        for pose in _unbound(posture, self._bound(posture)):
             self._animation(posture.stance, pose)
 
     def possible(self, posture: BodyPosture) -> BodyPosture:
         """Return a posture without the poses that do not exist in its stance."""
-        return replace(posture, poses=tuple(pose for pose in posture.poses if self._is_there(posture.stance, pose)))
+        other = _unbound(posture, self._bound(posture))
+        missing = [pose for pose in other if not self._is_there(posture.stance, pose)]
+        return replace(posture, poses=tuple(pose for pose in posture.poses if pose not in missing))
 
     def _stand(self, stance: StanceType) -> Body:
         file = self._asset(f"postures/{stance.value.lower()}.xml")
         default = Body(self._skeleton, dict.fromkeys(self._skeleton.joints, IDENTITY))
         body = self._taken(load_animation(file, self._skeleton, joints=PART_JOINTS[PosePart.WHOLEBODY]), default)
-        return _turned(body, self._rest_pose(stance))
+        rest = next((rest for rest in self._rest_poses if rest.stance == stance and not rest.poses), None)
+        return body if rest is None else _turned(body, self._rotations(rest))
 
-    def _rest_pose(self, stance: StanceType) -> Mapping[str, Quat]:
-        """Return the rotations of a stance from the binding. An invalid file is ignored, and logged once."""
-        name = self._rest_poses.get(stance.value)
-        if name is None:
-            return {}
+    def _bound(self, posture: BodyPosture) -> RestPose | None:
+        """Return the rest pose of the binding with poses that a posture has too."""
+        poses = {pose.part: _word(pose.lexeme) for pose in posture.poses}
+        fitting = (rest for rest in self._rest_poses if rest.poses and rest.poses.items() <= poses.items())
+        return next((rest for rest in fitting if rest.stance == posture.stance and self._rotations(rest)), None)
+
+    def _rotations(self, rest: RestPose) -> Mapping[str, Quat]:
+        """Return the rotations of a rest pose of the binding. An invalid file is ignored, and logged once."""
         try:
-            rotations = read_skeleton_pose(self._asset(name))
+            rotations = read_skeleton_pose(self._asset(rest.file))
         except RealizerError as problem:
-            if stance not in self._logged:
-                self._logged.add(stance)
-                _log.warning("the default rest pose of %s is used: %s", stance.value, problem.fault.sentence)
+            if rest.file not in self._logged:
+                self._logged.add(rest.file)
+                _log.warning("the default rest pose of %s is used: %s", rest.stance.value, problem.fault.sentence)
             return {}
         return {joint: turn for joint, turn in rotations.items() if joint in self._skeleton}
 
@@ -189,7 +195,7 @@ class PostureLibrary:
         return True
 
     def _file(self, stance: StanceType, lexeme: str) -> Path | None:
-        word = lexeme.strip().lower().replace("-", "_")
+        word = _word(lexeme).lower()
         if word.endswith("_neutral"):
             return None
         return first_asset(self._asset, f"postures/{stance.value.lower()}/{word}.xml", f"postures/{word}.xml")
@@ -203,6 +209,16 @@ class PostureLibrary:
             places_root = posed.root is not None
             body = body.posed(posed.rotations, posed.root) if places_root else _turned(body, posed.rotations)
         return body
+
+
+def _word(lexeme: str) -> str:
+    """Return a lexeme in capitals, its words joined by ``_``."""
+    return lexeme.strip().upper().replace("-", "_")
+
+
+def _unbound(posture: BodyPosture, bound: RestPose | None) -> list[Pose]:
+    """Return the poses of a posture that a rest pose of the binding does not include."""
+    return [pose for pose in posture.poses if bound is None or pose.part not in bound.poses]
 
 
 def _turned(body: Body, rotations: Mapping[str, Quat]) -> Body:
