@@ -1,18 +1,13 @@
-"""Writes the output of a session: feedback as JSON lines, warnings, explanations as JSON, frames as an npz file."""
+"""Writes the output of a session: feedback as JSON lines, warnings, explanations as JSON."""
 
 import json
 import os
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from typing import IO
 
-import numpy as np
-
-from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import WarningFeedback
-from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
@@ -56,39 +51,3 @@ class Explainer:
 
     def _keep(self, block: BMLBlock) -> None:
         self._blocks.append(self._scheduler.explain(block.key.character, block.key.block))
-
-
-class FrameRecorder:
-    """Collects the frames of all characters and writes them in the format of docs/cli.md, frames."""
-
-    def __init__(self) -> None:
-        self._frames: dict[str, list[Frame]] = {}
-
-    def __call__(self, frames: Mapping[str, Frame]) -> None:
-        """Keep the frames of a tick."""
-        for id_, frame in frames.items():
-            self._frames.setdefault(id_, []).append(frame)
-
-    def write(self, path: Path, realizer: Realizer) -> None:
-        """Write one npz file; with several characters, every name has the prefix ``ID/``."""
-        arrays: dict[str, object] = {}
-        for id_, character in realizer.characters.items():
-            prefix = f"{id_}/" if len(realizer.characters) > 1 else ""
-            arrays |= {prefix + name: array for name, array in self._arrays(character).items()}
-        with path.open("wb") as file:
-            np.savez(file, **arrays)  # type: ignore[arg-type]
-
-    def _arrays(self, character: Character) -> dict[str, object]:
-        frames = self._frames.get(character.id, [])
-        avatar = character.humanoid.avatar
-        skeleton = avatar.skeleton
-        return {
-            "time": np.array([frame.time for frame in frames]),
-            "joints": np.array(skeleton.joints),
-            "parents": np.array(skeleton.parents),
-            "offsets": np.array(skeleton.offsets),
-            "rotations": np.array([f.rotations for f in frames]).reshape(-1, len(skeleton.joints), 4),
-            "root": np.array([frame.root for frame in frames]).reshape(-1, 3),
-            "morphs": np.array(avatar.morphs),
-            "weights": np.array([frame.weights for frame in frames]).reshape(-1, len(avatar.morphs)),
-        }

@@ -15,12 +15,16 @@ from typing import IO
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import open_scene
 from reactive_realizer.bml.sync_ref import NUMBER
-from reactive_realizer.cli.output import Explainer, FeedbackWriter, FrameRecorder, print_warning
+from reactive_realizer.cli.output import Explainer, FeedbackWriter, print_warning
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.clock import ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.sound_track import SoundTrack
 from reactive_realizer.errors import Fault
+from reactive_realizer.export.bvh import write_bvh
+from reactive_realizer.export.npz import write_npz
+from reactive_realizer.export.recorded_motion import MotionRecorder
+from reactive_realizer.export.text_grid import PlayedLog
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.realizer.session import replay, run_until_done
@@ -60,7 +64,9 @@ def input_file(text: str) -> InputFile:
 
 
 _UNTIL = 600.0
-_WITH_REPLAY = ("replay", "feedback", "frames", "audio", "explain", "verbose", "log_format", "run")
+_OUTPUTS = ("feedback", "frames", "bvh", "audio", "textgrid", "explain")
+_MOTION_WRITERS = {"frames": write_npz, "bvh": write_bvh}
+_WITH_REPLAY = ("replay", *_OUTPUTS, "verbose", "log_format", "run")
 """The options that ``--replay`` allows; all others are in the recording."""
 
 
@@ -105,7 +111,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _add_output_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--feedback", metavar="FILE|-", help="write the feedback, JSON lines; - is stdout")
     parser.add_argument("--frames", type=Path, metavar="FILE.npz", help="write all poses, a NumPy archive")
+    parser.add_argument(
+        "--bvh", type=Path, metavar="FILE.bvh", help="write the motion of the bodies, for animation tools"
+    )
     parser.add_argument("--audio", type=Path, metavar="FILE.wav", help="write the sound of all characters, 48 kHz")
+    parser.add_argument(
+        "--textgrid",
+        type=Path,
+        metavar="FILE.TextGrid",
+        help="write when which word and behavior played, for Praat and ELAN",
+    )
     parser.add_argument("--explain", type=Path, metavar="FILE", help="write why each sync point has its time, JSON")
 
 
@@ -114,8 +129,12 @@ def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     _check_combination(parser, options)
     inputs = [options.replay] if options.replay else [*(entry.path for entry in options.items), options.human]
     missing = [str(path) for path in inputs if not path.is_file()]
-    outputs = [Path(name) for name in (options.feedback, options.frames, options.audio, options.explain) if name]
+    outputs = [Path(name) for output in _OUTPUTS if (name := getattr(options, output))]
     missing += [str(output.parent) for output in outputs if not output.parent.is_dir()]
+    folders = [str(output) for output in outputs if output.is_dir()]
+    if folders:
+        print(f"cannot write a file over a folder: {', '.join(folders)}", file=sys.stderr)
+        return 2
     if missing:
         print(f"no such file: {', '.join(missing)}", file=sys.stderr)
         return 2
@@ -176,20 +195,26 @@ def _status(realizer: Realizer) -> int:
 @contextmanager
 def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
     """Writes the output of the session to the files of the options."""
-    recorder = FrameRecorder()
     explainer = Explainer(realizer) if options.explain else None
-    track = SoundTrack()
-    if options.frames:
+    track, log = SoundTrack(), PlayedLog()
+    recorder = MotionRecorder({id_: character.humanoid.avatar for id_, character in realizer.characters.items()})
+    wanted = {write: path for output, write in _MOTION_WRITERS.items() if (path := getattr(options, output))}
+    if wanted:
         realizer.watch(recorder)
     if options.audio:
         realizer.hear(track.take)
+    if options.textgrid:
+        realizer.feedback.listen(log.report)
+        realizer.hear(log.hear)
     with _feedback(options.feedback) as stream:
         realizer.feedback.listen(print_warning if stream is None else FeedbackWriter(stream))
         yield
-    if options.frames:
-        recorder.write(options.frames, realizer)
+    for write, path in wanted.items():
+        write(path, recorder.motions())
     if options.audio:
         track.write(options.audio, realizer.time)
+    if options.textgrid:
+        log.write(options.textgrid, realizer.time)
     if explainer is not None:
         explainer.write(options.explain)
 

@@ -149,6 +149,8 @@ def test_until_ends_a_session_and_names_the_blocks_that_it_cuts(
         ["{file}", "--seed", "x"],
         ["{file}", "--assets", "no-such-folder"],
         ["{file}", "--feedback", "no-such-folder/feedback"],
+        ["{file}", "--bvh", "no-such-folder/out.bvh"],
+        ["{file}", "--audio", "/"],
         ["{file}", "--frames", "no-such-folder/frames.npz"],
         [],
     ],

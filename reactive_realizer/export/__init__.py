@@ -1,0 +1,1 @@
+"""Writes what was played into files of other tools: motion, annotations and pictures."""
