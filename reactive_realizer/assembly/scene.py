@@ -13,6 +13,7 @@ from reactive_realizer.assembly.binding_files import binding_files
 from reactive_realizer.assembly.faults import BadHumanFile
 from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
 from reactive_realizer.assembly.registry import load, names
+from reactive_realizer.bml.dialects import Dialects
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.humanoid import Humanoid
@@ -112,6 +113,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         speech_streams=streams,
         word_classes=classes,
         fillers=fillers,
+        dialects=Dialects({name: load("dialects", name) for name in names("dialects")}),
         verify=options.verify,
     )
     await tts.start()

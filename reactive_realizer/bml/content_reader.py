@@ -76,7 +76,7 @@ class ContentReader:
         behaviors = [child for child in children if not _is(child[0], _CONSTRAINT)]
         self._check_number(len(behaviors))
         for tree, _ in behaviors:
-            if is_continuous(tree) and not tree.get("id"):
+            if (is_continuous(tree) or self._source.ids.draft) and not tree.get("id"):
                 self._source.ids.give(tree)
         for order, (tree, required) in enumerate(behaviors):
             self._read_behavior(tree, order, required)

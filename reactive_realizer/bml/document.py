@@ -20,6 +20,7 @@ from reactive_realizer.bml.block import (
 )
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.content_reader import ContentReader
+from reactive_realizer.bml.draft_documents import BlockNames, unwrapped
 from reactive_realizer.bml.drafts import modernize_block
 from reactive_realizer.bml.faults import (
     NoBlock,
@@ -47,7 +48,7 @@ _AFTER: Final = {"relax": "chunkAfter", "end": "appendAfter"}
 _CONTINUOUS: Final = frozenset(name for each in _OTHERS if each.continuous for name in each.spellings)
 
 
-def parse(text: str | bytes, limits: Limits) -> list[Parsed]:
+def parse(text: str | bytes, limits: Limits, name: str = "document1") -> list[Parsed]:
     """Reads BML 1.0; a document without a namespace is read as a draft of BML.
 
     A document may hold several blocks; comments, processing instructions and XML declarations may stand before and
@@ -57,9 +58,10 @@ def parse(text: str | bytes, limits: Limits) -> list[Parsed]:
     Args:
         text: the document.
         limits: the sizes that are refused.
+        name: id of the first block of a draft that has none; the second one gets ``name_2``, and so on.
     """
     try:
-        parsed = list(islice(_read(text, limits), limits.blocks_alive + 1))
+        parsed = list(islice(_read(text, limits, name), limits.blocks_alive + 1))
     except RealizerError as refused:
         return [_refused(refused)]
     if len(parsed) > limits.blocks_alive:
@@ -67,12 +69,17 @@ def parse(text: str | bytes, limits: Limits) -> list[Parsed]:
     return parsed or [_refused(RealizerError(NoBlock(line=1, column=1)))]
 
 
-def _read(text: str | bytes, limits: Limits) -> Iterator[Parsed]:
+def _read(text: str | bytes, limits: Limits, name: str) -> Iterator[Parsed]:
     size = len(text) if isinstance(text, bytes) else len(text.encode("utf-8", "surrogatepass"))
     if size > limits.bml_bytes:
         raise RealizerError(TooManyBytes(size=size, limit=limits.bml_bytes, line=1, column=1))
-    for root in read_roots(text if isinstance(text, str) else decode(text), limits):
-        yield Parsed(None, (root,)) if isinstance(root, Problem) else _BlockReader(root, limits).read()
+    ids = BlockNames(name)
+    for root in unwrapped(read_roots(text if isinstance(text, str) else decode(text), limits)):
+        if isinstance(root, Problem):
+            yield Parsed(None, (root,))
+        else:
+            ids.give(root.tree)
+            yield _BlockReader(root, limits).read()
 
 
 def _refused(refused: RealizerError) -> Parsed:
@@ -85,6 +92,7 @@ class _BlockReader:
     def __init__(self, root: Root, limits: Limits) -> None:
         self._source = BlockSource(root, limits)
         self._tree = root.tree
+        self._notes = root.notes
         self._id = BLOCK
 
     def read(self) -> Parsed:
@@ -112,6 +120,7 @@ class _BlockReader:
             raise RealizerError(self._source.located(self._tree, NoBlockId()))
         self._id = self._value(_ID)
         content = ContentReader(self._source, self._id)
+        content.report(list(self._notes))
         attributes = self._attributes(content, [_ID.name], _SYNCS)
         self._source.ids.external = attributes.get("external_refs", False) or not self._source.ids.draft
         content.read()

@@ -116,8 +116,6 @@ def _event(tree: Tree, source: BlockSource) -> None:
     if name:
         tree.set("event", name)
         tree.text = content
-    if not tree.get("id"):
-        source.ids.give(tree)
 
 
 _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {

@@ -27,10 +27,10 @@ class UnclosedElement(ParsingFault):
 
 
 class Doctype(ParsingFault):
-    """A document with a DOCTYPE."""
+    """A document with a DOCTYPE that declares entities or anything else, or stands inside a block."""
 
     code = "doctype"
-    template = "a DOCTYPE is not allowed"
+    template = "a DOCTYPE that declares something, or stands inside a block, is not allowed"
 
 
 class TooManyBytes(ParsingFault):
@@ -81,6 +81,23 @@ class NotBml(ParsingFault):
     code = "not-bml"
     template = "<{element}> is not a bml block, defineproc or useproc"
     element: str
+
+
+class LeftOut(ParsingFault):
+    """Elements beside the blocks of a document that are in another language, such as FML."""
+
+    code = "left-out"
+    template = "{elements} in <{parent}> is left out; only the blocks of BML in it are played"
+    elements: tuple[str, ...]
+    parent: str
+
+
+class ReaderFailed(ParsingFault):
+    """A document whose reader failed."""
+
+    code = "reader-failed"
+    template = "the reader of this document failed: {reason}"
+    reason: str
 
 
 class NoBlock(ParsingFault):

@@ -18,6 +18,8 @@ BMLIS: Final = "http://www.asap-project.org/bmlis"
 """BMLIS: incremental speech, of AsapRealizer."""
 CONTINUOUS: Final = (BMLA, BMLT)
 """The namespaces of continuous interaction; a name that both have means the same in both."""
+SBM: Final = "urn:smartbody"
+"""What the prefix of SmartBody's own elements and attributes stands for, which no script declares."""
 OWN: Final = "urn:reactive-realizer:1"
 """The extensions of this realizer."""
 

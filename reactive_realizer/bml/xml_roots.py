@@ -1,8 +1,8 @@
 """Splits a document into its top-level elements.
 
 A document may hold several blocks, so it is parsed as the content of an artificial root element. The parser is expat:
-it reports columns, stops at a DOCTYPE before any entity is defined, and never opens a file or a connection. After an
-error, parsing resumes behind the block that contains it.
+it reports columns, stops at a DOCTYPE before any entity is defined, and never opens a file or a connection. Parsing
+resumes behind a DOCTYPE that declares nothing, and behind the block that contains an error.
 """
 
 import codecs
@@ -24,7 +24,7 @@ from reactive_realizer.bml.faults import (
     TooManyAttributes,
     UnclosedElement,
 )
-from reactive_realizer.bml.names import BLOCK, Location
+from reactive_realizer.bml.names import BLOCK, SBM, Location
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.errors import Fault, RealizerError, quoted
 from reactive_realizer.limits import Limits
@@ -38,23 +38,35 @@ _DECLARED_ENCODING: Final = re.compile(rb"""<\?xml\s[^<>]*?encoding\s*=\s*["']([
 _BYTE_ENCODINGS: Final = {"utf-8", "ascii", "iso8859-1"}
 """Encodings that are read without a byte order mark, by their Python names."""
 
-_ROOT: Final = b"<_>"
+_ROOT: Final = b'<_ xmlns:sbm="%s">' % SBM.encode()
+"""Scripts of SmartBody use its prefix without declaring it."""
 _ROOT_END: Final = b"</_>"
 _PIECE: Final = 1 << 16
 """Bytes per call: expat copies its input, and a document with many errors starts it many times."""
-_START_TAG: Final = re.compile(rb"<(?:[\w.-]+:)?(?:bml|defineproc|useproc)[\s/>]")
+_START_TAG: Final = re.compile(rb"<(?:[\w.-]+:)?(?:bml|defineproc|useproc|act|fml-apml)[\s/>]")
 _END_TAG: Final = re.compile(rb"</(?:[\w.-]+:)?(?:bml|defineproc|useproc)\s*>")
 _DOCTYPE: Final = re.compile(rb"<!DOCTYPE", re.IGNORECASE)
+_PLAIN_DOCTYPE: Final = re.compile(
+    rb"""<!DOCTYPE\s+[^\s<>\[\]"']+(?:\s+(?:SYSTEM|PUBLIC\s*(?:"[^"]*"|'[^']*'))\s*(?:"[^"]*"|'[^']*'))?\s*(?:\[\s*\]\s*)?>"""
+)
+"""A DOCTYPE that declares nothing itself; what it names is not opened, so it has no effect."""
 _DECLARATION_END: Final = re.compile(rb"\?>")
 _MISPLACED_DECLARATION: Final = expat.errors.codes[expat.errors.XML_ERROR_MISPLACED_XML_PI]
 
 
 @dataclass(frozen=True, slots=True)
 class Root:
-    """A well-formed top-level element, with the location of each element in it."""
+    """A well-formed element of a block, or at the top level.
+
+    Attributes:
+        tree: the element.
+        locations: of all elements in it.
+        notes: what is told about its document.
+    """
 
     tree: Tree
     locations: Mapping[Tree, Location]
+    notes: tuple[Fault, ...] = ()
 
 
 def decode(data: bytes) -> str:
@@ -166,6 +178,7 @@ class _ParserRun:
         try:
             self._parser.Parse(_ROOT)
             self._parser.StartElementHandler = self._on_start
+            self._parser.StartNamespaceDeclHandler = self._on_prefix
             for first in range(self._start, len(self._data), _PIECE):
                 self._parser.Parse(self._data[first : first + _PIECE])
             self._parser.Parse(_ROOT_END, True)
@@ -180,7 +193,6 @@ class _ParserRun:
         parser = expat.ParserCreate("utf-8", "}")
         parser.EndElementHandler = self._on_end
         parser.CharacterDataHandler = self._on_text
-        parser.StartNamespaceDeclHandler = self._on_prefix
         return parser
 
     def _on_prefix(self, prefix: str | None, uri: str | None) -> None:
@@ -217,6 +229,9 @@ class _ParserRun:
         if self._root is None and stopped.code == _MISPLACED_DECLARATION:
             return self._behind(_DECLARATION_END, index)
         place = self._at(self._parser.ErrorLineNumber, self._parser.ErrorColumnNumber - behind)
+        plain = _PLAIN_DOCTYPE.match(self._data, index - behind) if self._root is None else None
+        if plain is not None:
+            return plain.end()
         if _DOCTYPE.match(self._data, index - behind):
             self._report(Doctype(), place)
         elif index >= len(self._data) and self._root is not None:
@@ -227,7 +242,13 @@ class _ParserRun:
             if self._root is None:
                 following = _START_TAG.search(self._data, index + 1)
                 return following.start() if following else len(self._data)
-        return self._behind(_END_TAG, index - behind)
+        return self._behind(self._end_tag(), index - behind)
+
+    def _end_tag(self) -> re.Pattern[bytes]:
+        """The end tag of the top-level element."""
+        if self._root is None:
+            return _END_TAG
+        return re.compile(rb"</(?:[\w.-]+:)?%s\s*>" % re.escape(self._root.open[0][0]).encode("utf-8", "surrogatepass"))
 
     def _behind(self, pattern: re.Pattern[bytes], index: int) -> int:
         match = pattern.search(self._data, index)

@@ -9,9 +9,9 @@ from typing import TextIO
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.bml.block import Problem
-from reactive_realizer.bml.document import parse
 from reactive_realizer.cli.scene_options import add_file_options
 from reactive_realizer.realizer.document_checker import Findings
+from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
 
 
@@ -61,7 +61,7 @@ class _Check:
         """The findings in a document."""
         admission = self._realizer.scheduler.admission(self._procedures)
         found = Findings([], [])
-        document = parse(text, self._realizer.limits)
+        document = self._realizer.read(BmlText(text)).parsed or ()
         self._checker.begin(document)
         for parsed in document:
             mistakes, notes = await self._checker.check(parsed, admission.refusal(parsed))

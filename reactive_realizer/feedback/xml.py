@@ -12,6 +12,7 @@ from lxml import etree
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BMLA, OWN, is_sync_id
+from reactive_realizer.bml.writer import written
 from reactive_realizer.feedback.messages import (
     BehaviorPrediction,
     BlockProgress,
@@ -226,7 +227,7 @@ def _predicted(block: str, prediction: BehaviorPrediction) -> str:
     """The behavior's own element, with times for its sync points; an inline sync of a speech has its own."""
     behavior, times = prediction.behavior, prediction.times
     key = _TemplateKey(
-        behavior.source,
+        written(behavior),
         _legal(f"{block}:{behavior.id}"),
         frozenset(behavior.syncs),
         frozenset({sync for sync in times if sync in behavior.sync_points or sync not in _attributes(type(behavior))}),

@@ -19,11 +19,15 @@ class BmlText:
     Attributes:
         text: the document.
         client: that sent it; empty for the session itself. Clients take turns in planning.
+        number: of the document in the session, from which its blocks without id get one; 0 if it has none yet.
+        media_type: of the document if it determines its dialect; otherwise, the content does.
         parsed: the parsed document, if it was parsed before; otherwise it is parsed when it enters.
     """
 
     text: str | bytes
     client: str = ""
+    number: int = 0
+    media_type: str = ""
     parsed: Sequence[Parsed] | None = field(default=None, compare=False, repr=False)
 
 

@@ -11,7 +11,7 @@ from typing import Self
 
 from reactive_realizer.bml.behaviors import streams_of
 from reactive_realizer.bml.block import Parsed
-from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.dialects import ONLY_BML, Dialects
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.clock.ticker import Tick, first_tick
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
@@ -80,6 +80,7 @@ class Realizer:
         speech_streams: the sound of speeches that clients send.
         word_classes: the words with which speakers move.
         fillers: what they say to hold the floor.
+        dialects: in which documents may be.
 
     Attributes:
         feedback: of all blocks, for its listeners.
@@ -101,9 +102,12 @@ class Realizer:
         speech_streams: SpeechStreams | None = None,
         word_classes: WordClasses = NO_CLASSES,
         fillers: Fillers = NO_FILLERS,
+        dialects: Dialects = ONLY_BML,
         verify: bool = False,
     ) -> None:
         self.limits = limits
+        self.dialects = dialects
+        self._documents = 0
         self.characters = {character.id: character for character in characters}
         self.world = world
         self.feedback = FeedbackManager()
@@ -163,6 +167,19 @@ class Realizer:
         await self._stack.aclose()
 
     # --- the port
+
+    def numbered(self, document: BmlText) -> BmlText:
+        """A document with the next number, unless it has one."""
+        if document.number:
+            return document
+        self._documents += 1
+        return replace(document, number=self._documents)
+
+    def read(self, document: BmlText) -> BmlText:
+        """A document with its blocks and procedures, in whatever dialect it is."""
+        document = self.numbered(document)
+        name = f"document{document.number}"
+        return replace(document, parsed=self.dialects.read(document.text, self.limits, name, document.media_type))
 
     def put(self, entry: Input, at: GlobalTime = GlobalTime(0.0)) -> None:  # noqa: B008 - a float
         """Add an input, which enters at the first tick at or after ``at``, after all earlier inputs."""
@@ -327,10 +344,7 @@ class Realizer:
     def _read(self, entered: TickInputs) -> TickInputs:
         """The inputs of a tick with their documents parsed."""
         inputs = (
-            replace(each, parsed=parse(each.text, self.limits))
-            if isinstance(each, BmlText) and each.parsed is None
-            else each
-            for each in entered.inputs
+            self.read(each) if isinstance(each, BmlText) and each.parsed is None else each for each in entered.inputs
         )
         return replace(entered, inputs=tuple(inputs))
 

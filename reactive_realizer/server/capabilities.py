@@ -31,6 +31,7 @@ async def capabilities_of(scene: Scene, found: Found) -> dict[str, Any]:
         },
         "voices": await scene.tts.voices(),
         "tts": _tts(await scene.tts.capabilities()),
+        "mediaTypes": scene.realizer.dialects.media_types,
         "targets": list(scene.realizer.world.targets),
         "anticipators": {id_: _anticipator(scene, each) for id_, each in scene.realizer.anticipators.items()},
     }

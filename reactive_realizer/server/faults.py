@@ -129,11 +129,12 @@ class WrongMethod(Fault):
 
 
 class WrongMediaType(Fault):
-    """BML with another media type than XML."""
+    """A document with the media type of no dialect."""
 
     code = "wrong-media-type"
-    template = "BML must be sent as application/xml or text/xml, not as {type}"
+    template = "a document must be sent as {known}, not as {type}"
     type: str
+    known: tuple[str, ...]
 
 
 class WrongCharset(Fault):

@@ -21,7 +21,7 @@ from reactive_realizer.limits import Limits
 from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.inbox import TooManyNames
 from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, TargetMoved, WorldPosition
-from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, UnknownAnticipator
+from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, UnknownAnticipator, WrongMediaType
 from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import Message, push_of, streamed_of
@@ -148,25 +148,35 @@ class Intake:
         self._senders = StreamSenders(live.realizer)
         self.demo = Demo(live, self.stop)
 
-    async def document(self, text: str | bytes, client: str = "") -> Answer:
+    async def document(self, text: str | bytes, client: str = "", media_type: str = "") -> Answer:
         """Accepts a client's document if every block can be accepted.
+
+        Args:
+            text: the document.
+            client: its sender.
+            media_type: of the document.
 
         Raises:
             BlocksRefused: with the fault of the first block that cannot be accepted; none has entered.
         """
-        judged = await self._judge(text, client)
+        judged = await self._judge(text, client, media_type)
         if judged.first_refusal is not None:
             warnings = await self._warnings(judged, self._realizer.checker())
             raise BlocksRefused(judged.first_refusal, Answer([], warnings))
         return await self._enter(judged)
 
-    async def blocks(self, text: str, client: str = "") -> Answer:
+    async def blocks(self, text: str, client: str = "", media_type: str = "") -> Answer:
         """Accepts those blocks of a client's document that can be accepted; feedback reports each of the others.
+
+        Args:
+            text: the document.
+            client: its sender.
+            media_type: of the document; empty if it is not known.
 
         Raises:
             BlocksRefused: with the fault of the first of the others.
         """
-        judged = await self._judge(text, client)
+        judged = await self._judge(text, client, media_type)
         answer = await self._enter(judged)
         if judged.first_refusal is not None:
             raise BlocksRefused(judged.first_refusal, answer)
@@ -240,17 +250,22 @@ class Intake:
         """Forgets a client that has disconnected."""
         self._senders.leave(client)
 
-    async def _judge(self, text: str | bytes, client: str) -> _Judged:
+    async def _judge(self, text: str | bytes, client: str, media_type: str = "") -> _Judged:
         if self.closed:
             raise RealizerError(GoingAway())
+        dialects = self._realizer.dialects
+        if media_type and media_type not in dialects.media_types:
+            raise RealizerError(WrongMediaType(type=media_type, known=dialects.media_types))
+        kind = media_type if dialects.determined_by(media_type) else ""
+        document = self._realizer.numbered(BmlText(text, client, media_type=kind))
         if len(text) < _SMALL:
             async with self.turns:
-                read = parse(text, self._live.limits)
+                document = self._realizer.read(document)
         else:
-            read = await asyncio.to_thread(parse, text, self._live.limits)
+            document = await asyncio.to_thread(self._realizer.read, document)
         admission = self._realizer.admission()
-        judged = _Judged(BmlText(text, client, read), [], [])
-        for parsed in read:
+        judged = _Judged(document, [], [])
+        for parsed in document.parsed or ():
             judged.refusals.append(admission.refusal(parsed, client))
             if judged.refusals[-1] is None and parsed.block is not None:
                 judged.blocks.append(parsed.block.id)

@@ -4,7 +4,7 @@ import json
 import logging
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, fields
-from typing import assert_never
+from typing import Any, assert_never
 
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import SceneOptions
@@ -13,6 +13,7 @@ from reactive_realizer.realizer.inputs import (
     BmlText,
     Delivery,
     Forecast,
+    Input,
     Predicted,
     Prediction,
     Revocation,
@@ -59,8 +60,7 @@ class Recorder:
         for entry in entered.inputs:
             self._inputs += 1
             place = {"seq": self._inputs, "tick": entered.tick, "time": tick_time(entered.tick)}
-            client = {"client": entry.client} if isinstance(entry, BmlText) and entry.client else {}
-            lines.append({**place, **client, "input": message_of(entry)})
+            lines.append({**place, **_origin(entry), "input": message_of(entry)})
         work = {"work": [_delivery(delivery) for delivery in entered.work]} if entered.work else {}
         predicted = {"predicted": [_predicted(each) for each in entered.predicted]} if entered.predicted else {}
         self._write(
@@ -109,6 +109,12 @@ def _scene(options: SceneOptions) -> Message:
 
 def _watched(watched: bool) -> Message:
     return {"watched": True} if watched else {}
+
+
+def _origin(entry: Input) -> dict[str, Any]:
+    """The client that sent a document, and the number of the document, if it has any of these."""
+    known = {"client": entry.client, "number": entry.number} if isinstance(entry, BmlText) else {}
+    return {name: value for name, value in known.items() if value}
 
 
 def _delivery(delivery: Delivery) -> Message:

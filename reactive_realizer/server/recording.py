@@ -51,8 +51,8 @@ def message_of(entry: Input) -> Message:
     A document in bytes gets an ``encoding`` beside its ``xml``, so that decoding restores the same bytes.
     """
     match entry:
-        case BmlText(text):
-            return {"type": "bml", **_document(text)}
+        case BmlText(text, media_type=media_type):
+            return {"type": "bml", **_document(text), **({"mediaType": media_type} if media_type else {})}
         case Prediction(anticipator, sync, time):
             return {"type": "predict", "anticipator": anticipator, "sync": sync, "time": time}
         case Event(anticipator, name, value, text):
@@ -71,8 +71,8 @@ def message_of(entry: Input) -> Message:
             assert_never(entry)
 
 
-def input_of(message: Message, client: str = "") -> Input:
-    """Decodes an input from the recorded message of a client.
+def input_of(message: Message, client: str = "", number: int = 0) -> Input:
+    """Decodes an input from the recorded message of a client, and the number of a document.
 
     Raises:
         RealizerError: "unknown-message" or "bad-message".
@@ -80,7 +80,7 @@ def input_of(message: Message, client: str = "") -> Input:
     check(message)
     match message:
         case {"type": "bml"}:
-            return BmlText(_text(message), client)
+            return BmlText(_text(message), client, number, message.get("mediaType", ""))
         case {"type": "predict", "anticipator": anticipator, "sync": sync, "time": time}:
             return Prediction(anticipator, sync, None if time is None else GlobalTime(time))
         case {"type": "event", "anticipator": anticipator, "event": name}:
@@ -228,7 +228,7 @@ class _Reader:
         if line["seq"] != self._seq:
             raise RealizerError(LostInput(seq=line["seq"], wanted=self._seq))
         self._tick = self._later(int(line["tick"]))
-        self._inputs.append(input_of(line["input"], line.get("client", "")))
+        self._inputs.append(input_of(line["input"], line.get("client", ""), line.get("number", 0)))
 
     def _take_tick(self, line: Message) -> None:
         work = tuple(map(_delivery, line.get("work", ())))

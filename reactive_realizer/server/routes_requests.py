@@ -8,7 +8,7 @@ from aiohttp import web
 
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.server.faults import SlowRequest, WrongCharset, WrongMediaType
+from reactive_realizer.server.faults import SlowRequest, WrongCharset
 from reactive_realizer.server.intake import BlocksRefused
 from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE
 from reactive_realizer.server.middleware import answer_to
@@ -51,20 +51,16 @@ def _encoding(charset: str) -> str:
         raise RealizerError(WrongCharset(charset=charset)) from problem
 
 
-_XML = ("application/xml", "text/xml", "application/bml+xml")
-
 routes = web.RouteTableDef()
 
 
 @routes.post("/bml")
 async def bml(request: web.Request) -> web.Response:
     """Accepts a document completely, or not at all."""
-    if request.content_type not in _XML:
-        raise RealizerError(WrongMediaType(type=request.content_type))
     text = text_of(await _body(request), request.charset)
     limit = request.app[LIVE].limits.answered_warnings
     try:
-        answer = await request.app[INTAKE].document(text, request.app[CLIENTS].of(request))
+        answer = await request.app[INTAKE].document(text, request.app[CLIENTS].of(request), request.content_type)
     except BlocksRefused as refusal:
         return answer_to(request, refusal, bml_answer(*refusal.answer, limit))
     return web.json_response(bml_answer(*answer, limit), status=202)

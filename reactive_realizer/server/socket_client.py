@@ -166,7 +166,8 @@ class SocketClient:
                 check(message)
                 more = self._answer(message)
             if message["type"] == "bml":
-                more = self._about(await self._intake.blocks(message["xml"], self._name))
+                answer = await self._intake.blocks(message["xml"], self._name, message.get("mediaType", ""))
+                more = self._about(answer)
         except NoNumber as refusal:
             self._enqueue(refused(refusal, ref_of(refusal.message)))
         except BlocksRefused as refusal:

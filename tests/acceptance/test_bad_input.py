@@ -65,8 +65,8 @@ async def test_each_error_in_a_block_causes_one_warning_and_the_rest_plays(
 REFUSED = [
     ("<bml>", "bml", "PARSING_FAILURE", "line 1"),
     ('<bml id="b"><head id="x"</bml>', "b", "PARSING_FAILURE", "line 1"),
-    ("<bml><wait/></bml>", "bml", "PARSING_FAILURE", "no id"),
-    ("<!DOCTYPE bml><bml id='b'/>", "bml", "PARSING_FAILURE", "DOCTYPE"),
+    ("<bml id=''><wait/></bml>", "bml", "PARSING_FAILURE", "no id"),
+    ("<!DOCTYPE bml [<!ENTITY a 'b'>]><bml id='b'/>", "bml", "PARSING_FAILURE", "DOCTYPE"),
     ("<html/>", "bml", "PARSING_FAILURE", "html"),
     ("", "bml", "PARSING_FAILURE", "no bml block"),
     (b"\x00\xff\xfe\x01", "bml", "PARSING_FAILURE", ""),

@@ -200,7 +200,7 @@ def test_problems_have_line_and_column_and_are_in_document_order(read: Read) -> 
     ]
 
 
-WITHOUT_ID = ["<bml/>", '<bml id=""/>', '<bml id=" "/>', f'<bml xmlns="{BML}"/>']
+WITHOUT_ID = ['<bml id=""/>', '<bml id=" "/>', f'<bml xmlns="{BML}"/>']
 
 
 def test_a_block_without_an_id_is_refused(subtests: pytest.Subtests) -> None:

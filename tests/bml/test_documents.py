@@ -71,20 +71,34 @@ def test_the_problem_of_an_unclosed_block_names_the_open_element() -> None:
     assert str(problem.fault) == "line 3, column 18: not well-formed XML: the document ends inside <text>"
 
 
-DOCTYPES = [
-    '<!DOCTYPE bml><bml id="bad"></bml>',
-    '<!DOCTYPE bml SYSTEM "http://example.org/bml.dtd"><bml id="bad"></bml>',
+DECLARING_DOCTYPES = [
     '<!DOCTYPE bml [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><bml id="bad">&b;</bml>',
     '<?xml version="1.0"?>\n<!DOCTYPE bml [<!ENTITY x SYSTEM "file:///etc/passwd">]><bml id="bad">&x;</bml>',
     "<!doctype bml><bml></bml>",
+    '<bml id="bad"><!DOCTYPE bml></bml>',
 ]
 
 
-def test_a_doctype_is_refused_together_with_its_block(subtests: pytest.Subtests) -> None:
-    for text in DOCTYPES:
+def test_a_doctype_that_declares_something_is_refused_together_with_its_block(subtests: pytest.Subtests) -> None:
+    for text in DECLARING_DOCTYPES:
         with subtests.test(text):
-            assert faults(text) == [("bml", "doctype")]
+            assert [code for _, code in faults(text)] == ["doctype"]
             assert ids(f'{text}<bml id="next"/>') == [None, "next"]
+
+
+PLAIN_DOCTYPES = [
+    "<!DOCTYPE bml>",
+    "<?xml version='1.0'?>\n<!DOCTYPE bml SYSTEM 'http://example.org/bml.dtd' [ ]>",
+    '<!-- one --><!DOCTYPE fml-apml PUBLIC "-//X//EN" "fml-apml.dtd">',
+]
+
+
+def test_a_doctype_that_declares_nothing_has_no_effect(subtests: pytest.Subtests) -> None:
+    for doctype in PLAIN_DOCTYPES:
+        with subtests.test(doctype):
+            assert ids(f'{doctype}<bml id="one"/>{doctype}<bml id="two"/>') == ["one", "two"]
+            (problem,) = read(f'{doctype}<bml id="b">&foo;</bml>')[0].problems
+            assert problem.fault.code == "malformed-xml"
 
 
 WITHOUT_BLOCK: list[str | bytes] = ["", "  \n ", b"", "<!-- nothing -->", '<?xml version="1.0"?>', b"\xef\xbb\xbf"]

@@ -262,7 +262,7 @@ def test_an_event_of_smartbody_is_an_emit() -> None:
     assert parsed.block is not None
     first, second = (each for each in parsed.block.behaviors if isinstance(each, Emit))
     assert (first.id, first.event, first.content, str(first.syncs["start"])) == (
-        "emit1",
+        "event1",
         "vrSpoke",
         "brad  user",
         "x:end",

@@ -116,15 +116,7 @@ EXAMPLES: dict[int, tuple[Part, ...]] = {
         Part(4040, 4045, "Speech Gesture Head Synchronize", (block(THREE),), FRAGMENT),
         Part(4049, 4053, "Gaze Speech Order", (block(WELCOME),), FRAGMENT),
     ),
-    4: (
-        Part(
-            4119,
-            4122,
-            "Gaze ForeignBehavior",
-            (slip("<bml ", '<bml id="b" '), slip("animation ", 'animation id="a" ')),
-            ("no-block-id", 1),
-        ),
-    ),
+    4: (Part(4119, 4122, "Gaze ForeignBehavior"),),
     5: (Part(4154, 4167, "Speech", (block(),), FRAGMENT),),
     6: (Part(4172, 4196, "Speech", (block(),), FRAGMENT, "other-markup"),),
     7: (Part(4395, 4404, "ProcAnimation Synchronize Synchronize", (DOTS, block()), UNBOUND),),
@@ -341,7 +333,7 @@ SLIPS: dict[str, tuple[str, tuple[str, int]]] = {
     "an attribute without quotes": ('<bml id="b">\n\n<gesture id="g" type=BEAT/></bml>', ("malformed-xml", 3)),
     "attributes without a space between": ('<bml id="b">\n<gaze id="g"target="box"/></bml>', ("malformed-xml", 2)),
     "an ellipsis": ('<bml id="b">\n...\n</bml>', ("stray-text", 1)),
-    "no id": ('<bml>\n<head id="h" rotation="NOD"/></bml>', ("no-block-id", 1)),
+    "an empty id": ('<bml id="">\n<head id="h" rotation="NOD"/></bml>', ("no-block-id", 1)),
     "an offset that is no number": (
         '<bml id="b">\n<speech id="s" start="b:start+y"><text>Hi</text></speech></bml>',
         ("bad-attribute", 2),

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from reactive_realizer.__main__ import main
+from reactive_realizer.bml.names import BML
 from reactive_realizer.testing.pilot import block
 
 from .conftest import HELLO
@@ -90,7 +91,7 @@ def test_a_time_that_is_not_finite_is_a_usage_error(
         (block("b", '<wait id="w" duration="3"/>') + block("c", composition="REPLACE"), 0),
         (block("b", '<head id="h" lexeme="NOD" start="anticipators:never:comes"/>'), 0),
         ("<bml", 1),
-        ("<bml/>", 1),
+        (f'<bml xmlns="{BML}"/>', 1),
         ("", 1),
         (block("b", '<wait id="w" duration="1"/>') + block("b"), 1),
         (block("b", characterId="carol"), 1),
@@ -174,7 +175,7 @@ def test_the_exit_status_is_2_for_a_missing_file_or_a_usage_error(
 @pytest.mark.parametrize(
     ("text", "status", "said"),
     [
-        ("<bml/>", 1, "bml: line 1, column 1: the bml block has no id, so it is refused\n"),
+        (f'<bml xmlns="{BML}"/>', 1, "bml: line 1, column 1: the bml block has no id, so it is refused\n"),
         (block("b", '\n<teleport id="t"/>'), 0, "b:t: line 2, column 1: <teleport> is not a behavior of BML 1.0"),
         (HELLO, 0, ""),
     ],

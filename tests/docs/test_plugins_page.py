@@ -95,6 +95,26 @@ async def test_the_engine_warns_of_behaviors_that_it_cannot_play() -> None:
         assert FAULTS["wink-no-such-eye"].warning == "CANNOT_CREATE_BEHAVIOR"
 
 
+@pytest.mark.usefixtures("installed")
+async def test_a_document_in_the_dialect_plays() -> None:
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        pilot.perform((PLUGIN / "greeting.cues").read_bytes())
+        pilot.perform("#cues\n1 sing la")
+        await pilot.advance(4)
+        assert pilot.feedback.predicted("document1:cue2:end") > 0
+        assert pilot.feedback.time("document1:cue3:start") == pytest.approx(0.3)
+        assert pilot.feedback.time("document1:cue4:start") == pytest.approx(1.5)
+        assert pilot.feedback.warnings == [("document2", "PARSING_FAILURE")]
+        assert "line 2, column 1: '1 sing la' is not a cue" in pilot.feedback.of("warningFeedback")[0].text
+
+
+@pytest.mark.usefixtures("installed")
+def test_check_knows_a_file_by_its_content(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "a.xml").write_text("#cues\n0 nod\n1 sing la\n")
+    assert main(["check", str(tmp_path / "a.xml")]) == 1
+    assert capsys.readouterr().out.startswith(f"{tmp_path}/a.xml:3:1: '1 sing la' is not a cue")
+
+
 FEW = """
 from hypothesis import settings
 
@@ -121,7 +141,7 @@ def test_the_contract_tests_on_the_page_pass_in_a_separate_pytest(tmp_path: Path
 
 
 def test_the_page_shows_the_files_of_the_examples() -> None:
-    shown = [fence for language in ("python", "toml", "xml") for fence in fences(PAGE, language) if fence.note]
+    shown = [fence for language in ("python", "toml", "xml", "text") for fence in fences(PAGE, language) if fence.note]
     assert {fence.note for fence in shown if not fence.note.startswith("examples/anticipator")} == {
         f"examples/plugin/{path.name}" for path in PLUGIN.iterdir() if path.is_file() and path.name != "pyproject.toml"
     }

@@ -11,6 +11,7 @@ from aiohttp.test_utils import TestClient, TestServer
 from jsonschema import Draft202012Validator
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.bml.names import BML
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.server.app import create_app
@@ -58,7 +59,7 @@ def test_every_message_has_an_example(subtests: pytest.Subtests) -> None:
 @pytest.mark.parametrize("example", ANSWERS, ids=str)
 async def test_the_answer_to_a_request_has_the_fields_on_the_page(client: Client, example: Fence) -> None:
     method, path, status = example.note.removeprefix("answer: ").split()
-    body = "<bml/>" if method == "POST" else None
+    body = f'<bml xmlns="{BML}"/>' if method == "POST" else None
     answer = await client.request(method, path, data=body, headers={"Content-Type": "text/xml"} if body else None)
     told, shown = await answer.json(), json.loads(example.text)
     assert answer.status == int(status)

@@ -22,7 +22,7 @@ async def test_a_document_is_accepted_with_the_ids_of_its_blocks_and_plays(on_ai
         ("no block", "", 400, "no-block", 1),
         ("another document", "<html/>", 400, "not-bml", 1),
         ("a block without an id", f"\n<bml {BML}/>", 400, "no-block-id", 2),
-        ("a DOCTYPE", f'<!DOCTYPE bml><bml {BML} id="b1"/>', 400, "doctype", 1),
+        ("a DOCTYPE", f'<!DOCTYPE bml [<!ENTITY a "b">]><bml {BML} id="b1"/>', 400, "doctype", 1),
         ("bytes that are no text", b"\xff\xfe\x00", 400, None, None),
         ("a character who is not there", f'<bml {BML} id="b1" characterId="zoe"/>', 404, "unknown-character", 1),
     ],
@@ -167,6 +167,14 @@ async def test_blocks_above_the_limit_are_refused_until_others_are_stopped(on_ai
         await post(air, "/stop", "")
         await air.tick()
         assert (await post(air, "/bml", wait("b2")))[0] == 202
+
+
+async def test_a_document_may_have_the_media_type_of_bml_and_need_no_ids(on_air: Open) -> None:
+    async with on_air() as air:
+        for number in (1, 2):
+            text = '<bml><head type="NOD"/></bml>'
+            status, body = await post(air, "/bml", text, {"Content-Type": "application/bml+xml"})
+            assert (status, body) == (202, {"blocks": [f"document{number}"], "warnings": []})
 
 
 @pytest.mark.parametrize("media_type", ["text/plain", "application/json", "application/x-www-form-urlencoded"])

@@ -38,6 +38,7 @@ from reactive_realizer.server.recording_parts import RecordingParts
 INPUTS: list[Input] = [
     BmlText('<bml id="ü"/>'),
     BmlText('<bml id="ü"/>', "192.0.2.7"),
+    BmlText("#cues", number=7, media_type="text/x-cues"),
     BmlText("a half of a pair: \ud800"),
     BmlText('<bml id="ü"/>'.encode()),
     BmlText('<?xml version="1.0" encoding="UTF-16"?><bml id="ü"/>'.encode("utf-16")),
@@ -188,7 +189,7 @@ def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | b
 
 
 GOOD = recorded(SESSION).splitlines()
-EVENT = '{"seq": 17, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
+EVENT = '{"seq": 18, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
 FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time": null}}'
 
 
@@ -208,7 +209,7 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
         ([GOOD[0], '{"tick": 3, "count": 4}', '{"tick": 6}'], 3, "tick 6 follows tick 6"),
         ([GOOD[0], '{"tick": 3, "count": 0}'], 2, "minimum 1"),
         ([GOOD[0], '{"tick": 3, "count": 1e9}'], 2, "maximum 100"),
-        ([GOOD[0], EVENT.replace("17", "2")], 2, "input 2 follows where input 1"),
+        ([GOOD[0], EVENT.replace("18", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
         ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
         ([GOOD[0], FORECAST], 2, "tick 9 follows tick -1"),

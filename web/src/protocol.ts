@@ -89,11 +89,12 @@ export type Warnings = Warning[];
 export type MoreWarnings = number;
 
 /**
- * A BML document with one or more blocks. Each acceptable block is accepted, regardless of the others. Feedback reports every rejected block, and error reports the first. The answer lists the accepted blocks.
+ * A document with one or more blocks, in BML or another dialect: that of its media type, or else the one that its content shows. Each acceptable block is accepted, regardless of the others. Feedback reports every rejected block, and error reports the first. The answer lists the accepted blocks.
  */
 export interface Bml {
   type: "bml";
   xml: string;
+  mediaType?: string;
   ref?: Ref;
 }
 export interface Predict2 {

@@ -1,0 +1,61 @@
+"""Documents older than BML 1.0: blocks without an id, and blocks inside elements of other languages."""
+
+from collections.abc import Iterable, Iterator
+from typing import Final
+
+from reactive_realizer.bml.block import Problem
+from reactive_realizer.bml.faults import LeftOut, NoBlock
+from reactive_realizer.bml.names import BLOCK
+from reactive_realizer.bml.trees import Tree, name_of, namespace_of
+from reactive_realizer.bml.xml_roots import Root
+from reactive_realizer.errors import Fault
+
+_WRAPPERS: Final = frozenset({"fml-apml", "act"})
+"""Elements around blocks: of Greta, with its intentions (FML) beside them, and of SmartBody."""
+_ROUTING: Final = "participant"
+"""The element by which SmartBody addresses an act; here, whoever sends a document does that."""
+
+
+class BlockNames:
+    """Gives ids to the blocks of a document that have none.
+
+    Args:
+        name: of the document.
+    """
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._given = 0
+
+    def give(self, block: Tree) -> None:
+        """Give a block of a draft an id if it has none."""
+        if namespace_of(block) or name_of(block).lower() != "bml" or block.get("id") is not None:
+            return
+        self._given += 1
+        block.set("id", self._name if self._given == 1 else f"{self._name}_{self._given}")
+
+
+def unwrapped(roots: Iterable[Root | Problem]) -> Iterator[Root | Problem]:
+    """The top-level elements of a document, with the blocks inside a wrapper in its place."""
+    for root in roots:
+        if isinstance(root, Problem) or namespace_of(root.tree) or name_of(root.tree) not in _WRAPPERS:
+            yield root
+        else:
+            yield from _inside(root)
+
+
+def _inside(wrapper: Root) -> Iterator[Root | Problem]:
+    """The blocks in a wrapper; the first one has the notes about what is left out."""
+    blocks = [child for child in wrapper.tree if name_of(child).lower() == "bml"]
+    others = [child for child in wrapper.tree if child not in blocks and len(child) + len(child.attrib)]
+    notes: list[Fault] = []
+    left_out = [child for child in others if name_of(child) != _ROUTING]
+    if left_out:
+        place = wrapper.locations[left_out[0]]
+        fault = LeftOut(elements=tuple(dict.fromkeys(map(name_of, left_out))), parent=name_of(wrapper.tree))
+        notes.append(fault.located(place.line, place.column))
+    if not blocks:
+        place = wrapper.locations[wrapper.tree]
+        yield Problem(NoBlock().located(place.line, place.column), BLOCK)
+    for number, block in enumerate(blocks):
+        yield Root(block, wrapper.locations, tuple(notes) if number == 0 else ())

@@ -1,0 +1,25 @@
+"""docs/dialects.md: its examples play without warnings, except those that it announces."""
+
+import pytest
+
+from reactive_realizer.assembly.registry import names
+from reactive_realizer.testing.pilot import open_pilot
+
+from .conftest import Fence, fences, page
+
+PAGE = "docs/dialects.md"
+
+
+@pytest.mark.parametrize("example", fences(PAGE, "xml"), ids=str)
+async def test_every_block_of_an_example_is_played_with_the_warnings_of_the_page_only(example: Fence) -> None:
+    announced = example.note.removeprefix("plays").removeprefix(", warns: ")
+    async with open_pilot() as pilot:
+        pilot.perform(example.text)
+        await pilot.advance(12)
+        assert pilot.feedback.status("document1") == "DONE"
+        assert [id_ for id_, _ in pilot.feedback.warnings] == [id_ for id_ in announced.split(", ") if id_]
+
+
+def test_the_page_lists_every_dialect() -> None:
+    rows = [line.split("`")[1] for line in page(PAGE).splitlines() if line.startswith("| `")]
+    assert set(rows) >= set(names("dialects"))
