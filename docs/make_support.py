@@ -158,25 +158,42 @@ the default is the first free one, such as `activate1`.
 _DRAFTS = """
 ## Documents without a namespace
 
-Documents without a namespace are read as drafts of BML, either that of van Welbergen's thesis or the Vienna draft. One
-tolerant reader accepts everything above and the different spellings of the drafts. It does not guess: anything outside
-this table causes a warning.
+Documents without a namespace are read as [drafts of BML](dialects.md#drafts-of-bml): that of van Welbergen's thesis,
+the Vienna draft, or what Greta and EMBOTS write. One tolerant reader accepts everything above and the different
+spellings of the drafts. It does not guess: anything outside this table causes a warning.
 
 | draft | read as |
 |---|---|
 | `bml scheduling="append"` | `composition` |
+| `bml character="..."`, `bml agent="..."` | `characterId` |
+| `bml` and behaviors without `id` | an `id` such as `document1`, `head1` |
 | `head action="ROTATION" rotation="NOD"`, `head type="NOD"` | `lexeme`; a rotation X is NOD, Y is SHAKE, Z is TILT |
-| `head repeats` | `repetition` |
+| `head lexeme="Down_Aside_Right"` | `DOWN_RIGHT` |
+| `head repeats` | `repetition`; a part of one is 1 |
 | `gesture type="BEAT"`, `type="LEXICALIZED" lexeme="..."` | `lexeme` |
 | `gesture type="POINT" target="..."` | `pointing` |
 | `gesture hand="LEFT"` | `mode="LEFT_HAND"` |
 | `gaze type="AT"`, `gaze modality` | ignored, and `influence`; LEGS means WHOLE |
+| `gaze sbm:joint-range="EYES NECK"` | `influence="HEAD"`; CHEST is SHOULDER, BACK is WAIST |
+| `gaze sbm:target-pos="0.5 1.6 2"` | `target`; three numbers are a point in the world, m |
+| `gaze` without `target` | `target="viewer"` |
 | `face type="FACS" au="..."`, `type="LEXICALIZED" lexeme="..."` | `faceFacs`, `faceLexeme` |
+| `face au="1_left"` | `au="1" side="left"` |
+| `lexeme` in a `face` | `faceLexeme` |
 | `posture stance="standing" shape="open" part="lower"` | `stance` and `pose`, here LEGS and LEGS_OPEN |
-| text directly in `speech`, `<tm id="..."/>` | `text`, `sync` |
+| `torso lexeme="..."`, `body posture="..."`, `shoulder lexeme="..."` | `posture` with a `pose` of WHOLEBODY or ARMS |
+| text directly in `speech`, `<tm id="..."/>`, `<mark name="..."/>` | `text`, `sync` |
+| `speech text="..."` | `text`, if there is no other |
+| `speech ref="..."` | a [recording](audio.md#recorded-speech) |
+| `speech language`, `voice`, `type`, and points of gestures | ignored: the voice of the character speaks |
+| `<pitchaccent>`, `<boundary>` in a `speech` | [SSML](voices.md#ssml): emphasis on the words, a break |
+| `<reference>beat=Circle</reference>` in a description | the `lexeme`, if there is no other |
+| `description level="..."`, or without `priority` | `priority`, or 0 |
+| `<lips>`, `<curves>` | left out with one warning: the lips follow the sound |
 | `synchronize ref="..."` | an additional `sync` in it |
 | `event message="NAME content" stroke="..."` | `bmla:emit event="NAME" start="..."` with the content |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
+| names of elements in capital letters | in lowercase |
 
 A `gaze` or `posture` without a constraint on its end [persists](semantics.md#persistent-behaviors-and-shifts).
 A reference to a behavior of another block requires `allowexternalrefs="true"`.

@@ -1,7 +1,7 @@
 """Reads the child elements of behaviors: texts, expressions, poses, trajectories, keyframes, parameters."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Final
 
@@ -40,6 +40,7 @@ def read_speech(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str
     notes += source.unknown_parts(text_element, [], [_MARK])
     text = ""
     places: dict[str, int] = {}
+    times: dict[str, float | None] = {}
     for piece in _pieces(text_element):
         if isinstance(piece, str):
             text = _joined(text, piece)
@@ -47,11 +48,12 @@ def read_speech(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str
         else:
             notes += source.unknown_parts(piece, _MARK_ATTRIBUTES)
             try:
-                places[_new_mark_id(piece, places, source)] = len(text)
+                values = _new_mark(piece, places, source)
+                places[values["id"]], times[values["id"]] = len(text), values.get("time")
             except RealizerError as refused:
                 notes.append(refused.fault)
     text = text.rstrip()
-    marks = tuple(Mark(id=name, char_index=min(at, len(text))) for name, at in places.items())
+    marks = tuple(Mark(id=id_, time=times[id_], char_index=min(at, len(text))) for id_, at in places.items())
     return {"text": text, "marks": marks}
 
 
@@ -70,13 +72,13 @@ def read_recording(description: Tree, marks: Sequence[Mark], source: BlockSource
     if file_name is None:
         return None
     known = tuple(mark.id for mark in marks)
-    times = []
+    times = {mark.id: MarkTime(id=mark.id, time=mark.time) for mark in marks if mark.time is not None}
     for sync in description.iterdescendants("{*}sync"):
         time = MarkTime(**source.values(sync, attributes_of(MarkTime)))
         if time.id not in known:
             raise RealizerError(source.located(sync, UnknownMark(mark=time.id, known=known)))
-        times.append(time)
-    return {"file_name": file_name, "mark_times": tuple(times)}
+        times[time.id] = time
+    return {"file_name": file_name, "mark_times": tuple(times.values())}
 
 
 def read_stream(description: Tree, source: BlockSource, notes: list[Fault]) -> SoundStream | None:
@@ -203,11 +205,13 @@ def _check_length(text: str, text_element: Tree, source: BlockSource) -> None:
         raise RealizerError(source.located(text_element, UtteranceTooLong(limit=limit)))
 
 
-def _new_mark_id(sync: Tree, taken: dict[str, int], source: BlockSource) -> str:
-    name = str(source.values(sync, attributes_of(Mark))["id"])
+def _new_mark(sync: Tree, taken: Container[str], source: BlockSource) -> dict[str, Any]:
+    """The values of the attributes of a mark."""
+    values = source.values(sync, attributes_of(Mark))
+    name = values["id"]
     if name in taken or name in Speech.SYNC_POINTS:
         raise RealizerError(source.located(sync, DuplicateId(element=name_of(sync), id=name)))
-    return name
+    return values
 
 
 def _expression(tree: Tree, source: BlockSource, notes: list[Fault]) -> Behavior:

@@ -21,7 +21,7 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.extensions import Emit, FaceKeyframe, Keyframe, ParameterValueChange
 from reactive_realizer.bml.faults import ProcedureInBlock, UnknownBehavior
-from reactive_realizer.bml.speech_descriptions import read_speech_description, unspoken
+from reactive_realizer.bml.speech_descriptions import read_speech_description, unspoken, unused_times
 from reactive_realizer.bml.trees import (
     PARAMETER,
     Tree,
@@ -130,6 +130,7 @@ def _descriptions(
             notes.append(refused.fault)
     if element.behavior is Speech:
         notes += unspoken(descriptions, source)
+        notes += unused_times(tree, core["marks"], descriptions.values(), source)
     return tuple(descriptions.values())
 
 

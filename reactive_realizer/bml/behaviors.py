@@ -57,10 +57,12 @@ class Mark:
 
     Attributes:
         id: name of the sync point.
+        time: from the start of the recording of the speech, s; None if it is not stated.
         char_index: index of the character that it precedes; the length of the text for a mark at the end.
     """
 
     id: str = field(metadata=attribute(Id()))
+    time: float | None = field(default=None, metadata=attribute(Duration()))
     char_index: int
 
 

@@ -68,6 +68,13 @@ class BlockSource:
         """Gives a new element the location of another one."""
         self._locations[tree] = self._locations[like]
 
+    def insert(self, tree: Tree, name: str, attributes: Mapping[str, str] = MappingProxyType({})) -> Tree:
+        """A new first child of an element, with its location."""
+        child = etree.Element(name, dict(attributes))
+        tree.insert(0, child)
+        self.place(child, tree)
+        return child
+
     def xml(self, tree: Tree) -> str:
         """An element as a well-formed XML document.
 

@@ -11,13 +11,14 @@ from reactive_realizer.bml.block import Constraint, Order, OrderKind, Problem, S
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.drafts import modernize
 from reactive_realizer.bml.extensions import Controller
-from reactive_realizer.bml.faults import DuplicateId, MissingElement, MoreProblems, TooManyBehaviors
+from reactive_realizer.bml.faults import DuplicateId, LipsLeftOut, MissingElement, MoreProblems, TooManyBehaviors
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of
 from reactive_realizer.errors import Fault, RealizerError, quoted
 
 _REQUIRED: Final = "required"
 _CONSTRAINT: Final = "constraint"
+_LIPS: Final = frozenset({"lips", "curves"})
 _SYNCHRONIZE: Final = "synchronize"
 _ENDING: Final = frozenset({"relax", "end"})
 _CONSTRAINTS: Final = (_SYNCHRONIZE, *OrderKind)
@@ -72,7 +73,7 @@ class ContentReader:
         Raises:
             RealizerError: ``too-many-behaviors``, or ``too-many-bytes`` in the copies kept of them.
         """
-        children = list(self._children(self._source.tree, required=False))
+        children = self._without_lips(list(self._children(self._source.tree, required=False)))
         behaviors = [child for child in children if not _is(child[0], _CONSTRAINT)]
         self._check_number(len(behaviors))
         for tree, _ in behaviors:
@@ -85,6 +86,14 @@ class ContentReader:
                 self._read_constraints(tree, required)
         for behavior in self._persistent():
             self._behaviors[behavior.id] = replace(behavior, persistent=True)
+
+    def _without_lips(self, children: list[tuple[Tree, bool]]) -> list[tuple[Tree, bool]]:
+        """The children except shapes of the mouth, which speech files of SmartBody list beside the speech."""
+        lips = [child for child, _ in children if _is_draft(child) and name_of(child) in _LIPS]
+        if lips:
+            names = tuple(dict.fromkeys(map(name_of, lips)))
+            self.report([self._source.located(lips[0], LipsLeftOut(elements=names))])
+        return [child for child in children if child[0] not in lips]
 
     def _persistent(self) -> list[Behavior]:
         """The persistent behaviors: controllers, gazes and postures of drafts, if nothing is tied to their end.
@@ -125,7 +134,7 @@ class ContentReader:
         notes: list[Fault] = []
         try:
             if _is_draft(tree):
-                modernize(tree, self._source)
+                notes += modernize(tree, self._source)
             behavior = read_behavior(tree, self._source, order, required, notes)
             if behavior.id in self._behaviors:
                 raise RealizerError(self._source.located(tree, DuplicateId(element=name_of(tree), id=behavior.id)))
@@ -145,7 +154,7 @@ class ContentReader:
             notes: list[Fault] = []
             try:
                 if _is_draft(child):
-                    modernize(child, self._source)
+                    notes += modernize(child, self._source)
                 self._constraints.append(_read_constraint(child, constraint_id, self._source, required, notes))
             except RealizerError as refused:
                 self._drop(refused.fault, required, constraint_id)

@@ -16,6 +16,14 @@ _ROUTING: Final = "participant"
 """The element by which SmartBody addresses an act; here, whoever sends a document does that."""
 
 
+def lower_names(block: Tree) -> None:
+    """Rewrite names of elements in capital letters, as EMBOTS allows them, in place."""
+    if not namespace_of(block):
+        for each in block.iter("*"):
+            if each.tag.isupper():
+                each.tag = each.tag.lower()
+
+
 class BlockNames:
     """Gives ids to the blocks of a document that have none.
 

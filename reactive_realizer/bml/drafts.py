@@ -1,55 +1,96 @@
 """BML before 1.0: rewrites documents without a namespace as BML 1.0 before they are read.
 
-One tolerant reading serves the draft of the thesis (van Welbergen 2011, chapter 6) and the Vienna draft that SmartBody
-reads. Nothing is guessed: what this module does not know stays as it is, and the reader of BML 1.0 reports it.
+One tolerant reading serves the draft of the thesis (van Welbergen 2011, chapter 6), the Vienna draft that SmartBody
+reads, and what Greta and EMBOTS write. Nothing is guessed: what this module does not know stays as it is, and the
+reader of BML 1.0 reports it.
 """
 
+import re
 from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Final
 
-from lxml import etree
-
 from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.draft_speech import modernize_speech
 from reactive_realizer.bml.faults import UnknownWord
-from reactive_realizer.bml.names import BMLA
+from reactive_realizer.bml.names import BMLA, SBM
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
-from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
-from reactive_realizer.errors import RealizerError
+from reactive_realizer.bml.trees import Tree, children_of, name_of
+from reactive_realizer.bml.vocabulary import Influence
+from reactive_realizer.errors import Fault, RealizerError
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
 _HANDS: Final = {"LEFT": "LEFT_HAND", "RIGHT": "RIGHT_HAND", "BOTH": "BOTH_HANDS"}
 _PARTS: Final = {"LOWER": "LEGS", "UPPER": "ARMS"}
+_BODY: Final = {"torso": "WHOLEBODY", "body": "WHOLEBODY", "shoulder": "ARMS"}
+_LEANINGS: Final = {
+    "FORWARD": "LEANING_FORWARD",
+    "BACKWARD": "LEANING_BACKWARD",
+    "NEUTRAL": "WHOLEBODY_NEUTRAL",
+}
+_ASIDE: Final = "ASIDE"
+_PART: Final = re.compile(r"0?\.[0-9]+")
+_SIDED: Final = re.compile("([0-9]+)_(left|right|both)", re.IGNORECASE)
+_AHEAD: Final = "viewer"
+"""The target of a gaze that names none."""
+_JOINT_RANGE, _TARGET_POSITION = f"{{{SBM}}}joint-range", f"{{{SBM}}}target-pos"
+_RANGES: Final = {
+    "EYES": Influence.EYES,
+    "NECK": Influence.HEAD,
+    "CHEST": Influence.SHOULDER,
+    "BACK": Influence.WAIST,
+}
+"""Joints that SmartBody turns to a target."""
 _FACES: Final = {"FACS": "faceFacs", "LEXICALIZED": "faceLexeme"}
 
 
 def modernize_block(tree: Tree) -> None:
     """Rewrites the attributes of a block, or of a use of a procedure, as BML 1.0 and BMLA, in place.
 
-    ``scheduling`` is the composition.
+    ``scheduling`` is the composition, and ``character`` (Greta) and ``agent`` (EMBOTS) name the character.
     """
     _rename_points(tree)
+    for name in ("character", "agent"):
+        _rename(tree, name, "characterId")
     if "scheduling" in tree.attrib and "composition" not in tree.attrib:
         tree.set("composition", str(tree.attrib.pop("scheduling")))
 
 
-def modernize(tree: Tree, source: BlockSource) -> None:
-    """Rewrites a behavior or constraint as BML 1.0, in place.
+def modernize(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a behavior or constraint as BML 1.0, in place, and returns the faults of what is left out.
 
     Raises:
         RealizerError: ``bad-attribute``: BML 1.0 has no equivalent.
     """
     _rename_points(tree)
+    for description in children_of(tree, "description"):
+        _rename(description, "level", "priority")
+        if "priority" not in description.attrib:
+            description.set("priority", "0")
+    if name_of(tree) == "speech":
+        return modernize_speech(tree, source)
     rewrite = _REWRITES.get(name_of(tree))
     if rewrite is not None:
         rewrite(tree, source)
+    return []
 
 
 def _head(tree: Tree, source: BlockSource) -> None:
     _check(tree, "action", ["ROTATION"], source)
     _rename(tree, "rotation", "lexeme", _AXES)
     _rename(tree, "type", "lexeme")
+    _name_by_reference(tree)
+    if "lexeme" in tree.attrib:
+        tree.set("lexeme", _direction(tree.get("lexeme", "")))
     _rename(tree, "repeats", "repetition")
+    if _PART.fullmatch(tree.get("repetition", "")):
+        tree.set("repetition", "1")  # of SmartBody: a part of a nod
+
+
+def _direction(lexeme: str) -> str:
+    """A word for a direction of the head without what it adds to those known here: Down_Aside_Right is DOWN_RIGHT."""
+    words = re.split("[_-]", lexeme.upper())
+    return "_".join(word for word in words if word != _ASIDE) if _ASIDE in words else lexeme
 
 
 def _gesture(tree: Tree, source: BlockSource) -> None:
@@ -60,52 +101,74 @@ def _gesture(tree: Tree, source: BlockSource) -> None:
     if kind in {"POINT", "LEXICALIZED"}:
         del tree.attrib["type"]
     _rename(tree, "type", "lexeme")
+    _name_by_reference(tree)
 
 
 def _gaze(tree: Tree, source: BlockSource) -> None:
-    _check(tree, "type", ["AT"], source)
+    _check(tree, "type", ["AT", "GAZE"], source)
     _rename(tree, "modality", "influence", {"LEGS": "WHOLE"})
+    joints = str(tree.attrib.pop(_JOINT_RANGE, "")).upper().split()
+    if joints and "influence" not in tree.attrib:
+        tree.set("influence", max((_RANGES[joint] for joint in joints if joint in _RANGES), default=Influence.HEAD))
+    _rename(tree, _TARGET_POSITION, "target")
+    if "target" not in tree.attrib:
+        tree.set("target", _AHEAD)
 
 
 def _face(tree: Tree, source: BlockSource) -> None:
-    if children_of(tree, *_FACES.values()):
+    for lexeme in children_of(tree, "lexeme"):
+        lexeme.tag = _FACES["LEXICALIZED"]
+    parts = children_of(tree, *_FACES.values())
+    for part in parts or (tree,):
+        _split_side(part)
+    if parts:
         return
     kind = _check(tree, "type", _FACES, source) or ("FACS" if "au" in tree.attrib else "LEXICALIZED")
     tree.tag = _FACES[kind]
+    if kind == "LEXICALIZED":
+        _name_by_reference(tree)
+
+
+def _split_side(tree: Tree) -> None:
+    """Rewrites an action unit with a side, such as ``1_left``."""
+    found = _SIDED.fullmatch(tree.get("au", ""))
+    if found is not None and "side" not in tree.attrib:
+        tree.set("au", found[1])
+        tree.set("side", found[2])
+
+
+def _name_by_reference(tree: Tree) -> None:
+    """Takes the word of a behavior from the reference in its description (Greta), such as ``beat=Circle``."""
+    references = (each.text or "" for each in tree.iterfind("description/reference"))
+    words = (reference.rpartition("=")[2].strip() for reference in references)
+    if "lexeme" not in tree.attrib and (word := next(filter(None, words), "")):
+        tree.set("lexeme", word)
+
+
+def _part_of_body(tree: Tree, source: BlockSource) -> None:
+    """Rewrites a behavior of the trunk or the shoulders, or a posture of SmartBody, as a posture."""
+    part = _BODY[name_of(tree)]
+    _rename(tree, "posture", "lexeme")
+    _name_by_reference(tree)
+    tree.tag = "posture"
+    lexeme = _take(tree, "lexeme")
+    if lexeme:
+        source.insert(tree, "pose", {"part": part, "lexeme": _LEANINGS.get(lexeme.upper(), lexeme)})
 
 
 def _posture(tree: Tree, source: BlockSource) -> None:
     if "stance" in tree.attrib:
-        _add(tree, "stance", {"type": _take(tree, "stance")}, source)
+        source.insert(tree, "stance", {"type": _take(tree, "stance")})
     if "shape" in tree.attrib:
         part = _take(tree, "part", "WHOLEBODY").upper()
         part, shape = _PARTS.get(part, part), _take(tree, "shape").upper()
         lexeme = f"{part}_{shape}" if part in _PARTS.values() else shape
-        _add(tree, "pose", {"part": part, "lexeme": lexeme}, source)
-
-
-def _speech(tree: Tree, source: BlockSource) -> None:
-    if tree.get("type", "").lower() == "text/plain":
-        del tree.attrib["type"]
-    for holder in (tree, *children_of(tree, "text")):
-        for mark in children_of(holder, "tm"):
-            mark.tag = "sync"
-    if not children_of(tree, "text") and (stray_text_of(tree) or children_of(tree, "sync")):
-        _wrap_text(tree, source)
-
-
-def _wrap_text(tree: Tree, source: BlockSource) -> None:
-    """Moves the text and its sync points into a ``<text>`` element."""
-    inside = [child for child in tree if name_of(child) != "description"]
-    written, tree.text = tree.text, None
-    text = _add(tree, "text", {}, source)
-    text.text = written
-    text.extend(inside)
+        source.insert(tree, "pose", {"part": part, "lexeme": lexeme})
 
 
 def _synchronize(tree: Tree, source: BlockSource) -> None:
     if "ref" in tree.attrib:
-        _add(tree, "sync", {"ref": _take(tree, "ref")}, source)
+        source.insert(tree, "sync", {"ref": _take(tree, "ref")})
 
 
 def _event(tree: Tree, source: BlockSource) -> None:
@@ -122,11 +185,12 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {
     "head": _head,
     "gesture": _gesture,
     "gaze": _gaze,
+    "gazeShift": _gaze,
     "face": _face,
     "posture": _posture,
-    "speech": _speech,
     "synchronize": _synchronize,
     "event": _event,
+    **dict.fromkeys(_BODY, _part_of_body),
 }
 
 
@@ -156,11 +220,3 @@ def _check(tree: Tree, name: str, words: Collection[str], source: BlockSource) -
     if value and value.upper() not in words:
         raise source.bad_attribute(tree, name, value, RealizerError(UnknownWord(word=value, known=tuple(words))))
     return value.upper()
-
-
-def _add(tree: Tree, name: str, attributes: dict[str, str], source: BlockSource) -> Tree:
-    """A new first child, with the location of its parent."""
-    child = etree.Element(name, attributes)
-    tree.insert(0, child)
-    source.place(child, tree)
-    return child

@@ -92,6 +92,22 @@ class LeftOut(ParsingFault):
     parent: str
 
 
+class LipsLeftOut(ParsingFault):
+    """Shapes of the mouth beside a speech."""
+
+    code = "lips-left-out"
+    template = "{elements} is left out: the lips follow the sound of the speech"
+    elements: tuple[str, ...]
+
+
+class TimeUnused(ParsingFault):
+    """Times of the marks of a speech that is not a recording."""
+
+    code = "time-unused"
+    template = "time of {marks} has no effect: it states where a mark is in a recording, and this speech has none"
+    marks: tuple[str, ...]
+
+
 class ReaderFailed(ParsingFault):
     """A document whose reader failed."""
 

@@ -1,6 +1,6 @@
 """Reads the descriptions of a speech: the same in another language (BML 1.0; thesis C.7)."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import inf
 from types import MappingProxyType
 from typing import Any, Final
@@ -9,7 +9,7 @@ from reactive_realizer.bml.behavior import Description
 from reactive_realizer.bml.behavior_parts import read_recording, read_stream
 from reactive_realizer.bml.behaviors import Mark, RecordedSpeech, Speech, StreamedSpeech
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import MissingElement, MissingMarks, OtherMarkup
+from reactive_realizer.bml.faults import MissingElement, MissingMarks, OtherMarkup, TimeUnused
 from reactive_realizer.bml.names import OWN
 from reactive_realizer.bml.ssml_reader import read_ssml
 from reactive_realizer.bml.trees import Tree, name_of
@@ -70,3 +70,12 @@ def unspoken(descriptions: Mapping[Tree, Description], source: BlockSource) -> I
     for tree, each in descriptions.items():
         if each.type in _OTHERS and each.priority > best:
             yield source.located(tree, OtherMarkup(language=_OTHERS[each.type]))
+
+
+def unused_times(
+    tree: Tree, marks: Iterable[Mark], descriptions: Iterable[Description], source: BlockSource
+) -> Iterator[Fault]:
+    """A fault if marks of a speech have times in a recording, and it is not described as one."""
+    timed = tuple(mark.id for mark in marks if mark.time is not None)
+    if timed and not any(isinstance(each.behavior, RecordedSpeech) for each in descriptions):
+        yield source.located(tree, TimeUnused(marks=timed))

@@ -63,7 +63,8 @@ class SyncRef:
         Args:
             text: the reference.
             limits: limit the offset.
-            names: known names of sync points; one that looks like a name with an offset (``s-1``) is read as a name.
+            names: known names of sync points; one that looks like a name with an offset (``s-1``) is read as a name,
+                and so is a number after the id of a behavior (``speech1:2``).
 
         Raises:
             RealizerError: ``not-a-reference``, ``only-block-start`` or ``absurd-time``.
@@ -71,7 +72,7 @@ class SyncRef:
         if len(text) > _MOST_CHARACTERS:
             raise RealizerError(NotAReference())
         *owners, last = (part.strip() for part in text.split(":"))
-        absolute = _SECONDS.fullmatch(last)
+        absolute = None if owners and last in names else _SECONDS.fullmatch(last)
         if absolute and len(owners) < 2:
             block = owners[0] if owners else None
             return cls._checked(block, None, None, _seconds(absolute[1], absolute[2], limits))

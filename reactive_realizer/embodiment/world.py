@@ -1,10 +1,13 @@
 """The targets that behaviors look and point at."""
 
+import re
 from collections.abc import Iterable, Mapping
 from typing import Protocol
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.vector import Vec3
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]{1,6}(?:\.[0-9]*)?|\.[0-9]+)")
 
 
 class Locate(Protocol):
@@ -38,7 +41,9 @@ class World:
             self._positions[target] = position
 
     def position(self, target: str, time: GlobalTime | None = None) -> Vec3 | None:
-        """Return the position of a target, m; None if it is unknown. ``alice`` is her eyes, ``alice:l_wrist`` a joint.
+        """Return the position of a target, m; None if it is unknown.
+
+        ``alice`` is her eyes, ``alice:l_wrist`` a joint, and ``0.5 1.6 2`` the point with these coordinates.
 
         Args:
             target: its name.
@@ -47,7 +52,7 @@ class World:
         character, _, joint = target.partition(":")
         if character in self._living:
             return self._living[character](joint or None, time)
-        return self._positions.get(target)
+        return self._positions.get(target) or _coordinates(target)
 
     @property
     def targets(self) -> Iterable[str]:
@@ -58,3 +63,12 @@ class World:
         """Return all targets with their positions."""
         known = ((target, self.position(target)) for target in self.targets)
         return {target: position for target, position in known if position is not None}
+
+
+def _coordinates(target: str) -> Vec3 | None:
+    """The position that a target writes as three numbers."""
+    words = target.split()
+    if len(words) != 3 or not all(map(_NUMBER.fullmatch, words)):
+        return None
+    x, y, z = map(float, words)
+    return (x, y, z)

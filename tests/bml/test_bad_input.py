@@ -158,7 +158,7 @@ KEPT = {
     SAY.format('so <sync id="end"/>'): "<sync>: the id 'end' is already in use",
     SAY.format('so <sync id="bml"/>'): "id='bml' of <sync>: an id must have 1 to 200 characters, without white space, "
     "control characters, ':' or '+', and cannot be 'bml'",
-    SAY.format('so <sync id="a" pace="2"/>'): "unknown attribute pace of <sync>; known: id",
+    SAY.format('so <sync id="a" pace="2"/>'): "unknown attribute pace of <sync>; known: id, time",
     SAY.format('so <sync id="a"><b>very</b></sync>'): "unknown b in <sync>; known: none",
     SAY.format('so <sync id="a" xmlns:u="urn:u" u:pace="2"/>'): "the attribute pace of urn:u has no effect here",
     '<speech id="x"><text pace="2">so</text></speech>': "unknown attribute pace of <text>; known: none",

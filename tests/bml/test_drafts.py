@@ -10,17 +10,21 @@ from reactive_realizer.bml.behaviors import (
     FaceFacs,
     FaceLexeme,
     Gaze,
+    GazeShift,
     Gesture,
     Head,
     Pointing,
     Pose,
     Posture,
     PostureShift,
+    RecordedSpeech,
     Speech,
+    Wait,
 )
 from reactive_realizer.bml.block import BehaviorBlock, Order, Parsed, Synchronize
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.extensions import Emit
+from reactive_realizer.bml.markup import MarkupKind
 from reactive_realizer.bml.names import BML, BMLT, Location
 from reactive_realizer.bml.references import check_references
 from reactive_realizer.bml.vocabulary import Composition, Influence, Mode, PosePart, Side, StanceType
@@ -49,6 +53,31 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object]]] = {
     '<head id="x" rotation="Z"/>': (Head, {"lexeme": "TILT"}),
     '<head id="x" type="TOSS"/>': (Head, {"lexeme": "TOSS"}),
     '<head id="x" lexeme="NOD"/>': (Head, {"lexeme": "NOD"}),
+    '<head id="x" lexeme="Down_Aside_Right"/>': (Head, {"lexeme": "DOWN_RIGHT"}),
+    '<head id="x" type="NOD" repeats="0.5"/>': (Head, {"lexeme": "NOD", "repetition": 1}),
+    '<gesture id="x"><description level="1" type="t"><reference>beat=Circle</reference></description></gesture>': (
+        Gesture,
+        {"lexeme": "Circle"},
+    ),
+    '<gaze id="x" type="GAZE" offsetAngle="20"/>': (Gaze, {"target": "viewer", "offset_angle": 20.0}),
+    '<gaze id="x" sbm:target-pos="1 1.5 2" sbm:joint-range="EYES CHEST"/>': (
+        Gaze,
+        {"target": "1 1.5 2", "influence": Influence.SHOULDER},
+    ),
+    '<gazeShift id="x" target="box" modality="SHOULDER"/>': (GazeShift, {"influence": Influence.SHOULDER}),
+    '<face id="x" type="facs" au="1_left" amount="1"/>': (FaceFacs, {"au": 1, "side": Side.LEFT}),
+    '<face id="x"><lexeme lexeme="SMILE"/></face>': (Face, {"name": "face"}),
+    '<face id="x"><description type="t"><reference>affect=joy</reference></description></face>': (
+        FaceLexeme,
+        {"lexeme": "joy"},
+    ),
+    '<torso id="x" lexeme="forward"/>': (
+        Posture,
+        {"poses": (Pose(part=PosePart.WHOLEBODY, lexeme="LEANING_FORWARD"),)},
+    ),
+    '<body id="x" posture="Sulk"/>': (Posture, {"poses": (Pose(part=PosePart.WHOLEBODY, lexeme="Sulk"),)}),
+    '<shoulder id="x" lexeme="UP"/>': (Posture, {"poses": (Pose(part=PosePart.ARMS, lexeme="UP"),)}),
+    '<WAIT id="x" duration="1"/>': (Wait, {"duration": 1.0}),
     '<gesture id="x" type="BEAT" hand="left"/>': (Gesture, {"lexeme": "BEAT", "mode": Mode.LEFT_HAND}),
     '<gesture id="x" type="LEXICALIZED" lexeme="wave" hand="BOTH"/>': (
         Gesture,
@@ -200,8 +229,84 @@ def test_bml_1_0_may_always_refer_to_behaviors_of_other_blocks() -> None:
     assert not parsed.problems
 
 
+def only(inside: str) -> Behavior:
+    """The only behavior, which is read without problems."""
+    (behavior,) = block(inside).behaviors
+    return behavior
+
+
+SPOKEN = {
+    "accent": (
+        '<tm id="a"/>one <tm id="b"/>two <tm id="c"/>three<pitchaccent level="strong" start="x:b" end="x:c"/>',
+        [(MarkupKind.EMPHASIS, "two ", "strong")],
+    ),
+    "accent on two words": (
+        '<tm id="a"/>one <tm id="b"/>two <tm id="c"/><pitchaccent start="x:a" end="x:c"/>',
+        [(MarkupKind.EMPHASIS, "one ", "moderate"), (MarkupKind.EMPHASIS, "two", "moderate")],
+    ),
+    "boundary": ('one <tm id="a"/>two<boundary start="x:a" end="x:a+0.3"/>', [(MarkupKind.BREAK, "", "0.3")]),
+    "boundary of a phrase": (
+        '<tm id="a"/>one <tm id="b"/>two<boundary type="LL" start="x:a" end="x:b"/>',
+        [(MarkupKind.BREAK, "", "0.25")],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SPOKEN)
+def test_accents_and_boundaries_between_marks_are_prosody(name: str) -> None:
+    inside, markup = SPOKEN[name]
+    speech = only(f'<speech id="x">{inside}</speech>')
+    assert isinstance(speech, Speech)
+    spoken, plain = speech.forms
+    assert isinstance(spoken, Speech)
+    assert isinstance(plain, Speech)
+    assert (spoken.text, spoken.marks) == (plain.text, plain.marks)
+    said = [(each.kind, spoken.text[each.first : each.last], each.text or f"{each.number:g}") for each in spoken.markup]
+    assert said == markup
+
+
+def test_an_accent_between_unknown_marks_is_left_out_with_a_problem() -> None:
+    (problem,) = read('<speech id="x">so <tm id="a"/>be it<pitchaccent start="x:a" end="x:z"/></speech>').problems
+    assert problem.fault.sentence == "the speech has no inline sync point 'z'; it has a"
+
+
+def test_text_around_descriptions_keeps_its_order() -> None:
+    speech = only('<speech id="x">one <description level="1" type="t"/> two <tm id="a"/>three</speech>')
+    assert isinstance(speech, Speech)
+    assert speech.text == "one two three"
+    assert [(mark.id, mark.char_index) for mark in speech.marks] == [("a", 8)]
+
+
+def test_the_text_of_a_speech_may_be_an_attribute() -> None:
+    speech = only('<speech id="x" text="Hello" language="english" voice="marytts" type="SAPI4"/>')
+    assert isinstance(speech, Speech)
+    assert speech.text == "Hello"
+
+
+def test_a_speech_file_of_smartbody_is_a_recording_with_times() -> None:
+    speech = only(
+        '<speech id="x" ready="0.1" relax="0.2"><text><sync id="T0" time="0"/>bye <sync id="T1" time="0.31"/></text>'
+        '<description level="1" type="audio/x-wav"><file ref="bye"/></description></speech>'
+    )
+    recording, _ = speech.forms
+    assert isinstance(recording, RecordedSpeech)
+    assert recording.file_name == "bye"
+    assert [(each.id, each.time) for each in recording.mark_times] == [("T0", 0.0), ("T1", 0.31)]
+
+
+def test_a_number_after_the_id_of_a_speech_is_the_name_of_its_mark() -> None:
+    _, gesture = block(
+        '<speech id="s">so <sync id="1"/>there</speech><gesture id="g" type="BEAT" stroke="s:1"/>'
+    ).behaviors
+    assert gesture.syncs["stroke"].sync == "1"
+
+
+def test_a_block_may_name_its_character_as_greta_and_embots_do() -> None:
+    assert block("", 'character="alice"').character == block("", 'agent="alice"').character == "alice"
+
+
 DROPPED = {
-    '<gaze id="x" type="AVERT" target="box"/>': "type='AVERT' of <gaze>: not one of AT",
+    '<gaze id="x" type="AVERT" target="box"/>': "type='AVERT' of <gaze>: not one of AT, GAZE",
     '<head id="x" action="ORIENTATION" rotation="NOD"/>': "action='ORIENTATION' of <head>: not one of ROTATION; "
     "did you mean 'ROTATION'?",
     '<head id="x" action="ROTATION"/>': "<head> requires the attribute 'lexeme'",
@@ -234,7 +339,8 @@ KEPT = {
     '<gesture id="x" type="BEAT" twoHanded="true"/>': "unknown attribute twoHanded of <gesture>",
     '<head id="x" rotation="NOD" type="SHAKE"/>': "unknown attribute type of <head>",
     '<posture id="x" stance="sitting" part="upper"/>': "unknown attribute part of <posture>",
-    '<speech id="x" type="application/ssml+xml">Hi</speech>': "unknown attribute type of <speech>",
+    '<speech id="x">Hi<sync id="a" time="1"/></speech>': "time of a has no effect",
+    '<lips id="x" viseme="Ah"/><speech id="x">Hi</speech>': "lips is left out: the lips follow the sound",
     '<speech id="x">Hi <b>you</b></speech>': "unknown b in <text>; known: sync",
 }
 
@@ -291,6 +397,9 @@ def test_rewritten_elements_keep_their_location() -> None:
 
 
 DRAFTED = {
+    "embots_talk": "Speech Gesture",
+    "greta_welcome": "Speech Head Face GazeShift",
+    "smartbody_faces": "Speech FaceFacs FaceFacs Gaze Head Posture",
     "interrupts": "Interrupt Interrupt Activate",
     "neck_gaze": "Gaze",
     "nod_on_a_word": "Speech Head",

@@ -11,7 +11,7 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.vector import distance, subtract, unit
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
-from .seen import EYES, FAR, GLANCE, PLATEAU, between, miss, place, put, sight, speeds
+from .seen import EYES, FAR, GLANCE, PLATEAU, at, between, miss, place, put, sight, speeds
 
 OFFSETS = [
     ("RIGHT", -1, 0),
@@ -224,3 +224,10 @@ async def test_frames_are_valid_for_any_target(
     for frame in pilot.frames["alice"]:
         assert np.linalg.norm(frame.rotations, axis=1) == pytest.approx(1.0)
     assert pilot.feedback.reached("b:g:end")
+
+
+async def test_a_target_may_be_a_point(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<gaze id="g" target="0.4 1.5 2" influence="EYES" start="0.2" end="2"/>')
+    await pilot.advance(1.5)
+    assert miss(pilot.bodies()[at(pilot, 1.2)], (0.4, 1.5, 2.0)) < 0.5
+    assert pilot.feedback.warnings == []

@@ -1,0 +1,157 @@
+"""Speech of drafts: text beside its element ``<text>``, attributes of other voices, and prosody between marks.
+
+Accents and boundaries (APML: B. De Carolis, C. Pelachaud, I. Poggi and M. Steedman, "APML, a markup language for
+believable behavior generation", 2004) become a description of the speech in SSML, which voices follow as they can.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Final, NamedTuple
+
+from lxml import etree
+
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.faults import UnknownMark
+from reactive_realizer.bml.ssml_values import LONGEST_BREAK
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
+from reactive_realizer.errors import Fault, RealizerError
+
+_OF_OTHER_VOICES: Final = ("language", "voice", "type")
+"""Attributes that select a voice of another system; the voice of the character speaks."""
+_OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax")
+"""Sync points that speech files of SmartBody state, and that a speech does not have."""
+_MARKS: Final = ("tm", "mark")
+_ACCENT, _BOUNDARY = "pitchaccent", "boundary"
+_LEVELS: Final = {"none": "none", "reduced": "reduced", "low": "reduced", "strong": "strong", "high": "strong"}
+
+
+def modernize_speech(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a speech as BML 1.0, in place, and returns the faults of accents and boundaries that are left out."""
+    for name in (*_OF_OTHER_VOICES, *_OTHER_POINTS):
+        tree.attrib.pop(name, "")
+    for holder in (tree, *children_of(tree, "text")):
+        for mark in children_of(holder, *_MARKS):
+            mark.tag = "sync"
+            if "name" in mark.attrib and "id" not in mark.attrib:
+                mark.set("id", str(mark.attrib.pop("name")))
+    _describe_file(tree, str(tree.attrib.pop("ref", "")), source)
+    said = str(tree.attrib.pop("text", "")).strip()
+    if not children_of(tree, "text") and (said or stray_text_of(tree) or children_of(tree, "sync")):
+        _wrap_text(tree, said, source)
+    return [fault for text in children_of(tree, "text") for fault in _prosody(tree, text, source)]
+
+
+def _wrap_text(tree: Tree, said: str, source: BlockSource) -> None:
+    """Moves the text and its sync points into a ``<text>`` element; without any, that has the text of the attribute."""
+    written = bool(stray_text_of(tree))
+    text = source.insert(tree, "text")
+    text.text, tree.text = tree.text if written else said, None
+    for child in list(tree)[1:]:
+        if name_of(child) != "description":
+            text.append(child)
+        else:
+            _append_text(text, child.tail or "")
+            child.tail = None
+
+
+def _append_text(text: Tree, piece: str) -> None:
+    if len(text):
+        text[-1].tail = f"{text[-1].tail or ''}{piece}"
+    else:
+        text.text = f"{text.text or ''}{piece}"
+
+
+def _describe_file(tree: Tree, ref: str, source: BlockSource) -> None:
+    """Describes a speech as the recording that its attribute ``ref`` names."""
+    if ref.strip():
+        description = source.insert(tree, "description", {"priority": "1", "type": "audio/x-wav"})
+        source.insert(description, "file", {"ref": ref.strip()})
+
+
+class _Piece(NamedTuple):
+    """A part of a text: a mark, and the text from there to the next one."""
+
+    mark: str
+    text: str
+
+
+def _prosody(tree: Tree, text: Tree, source: BlockSource) -> Iterator[Fault]:
+    """Takes accents and boundaries out of a text, and describes the speech with them."""
+    marked = children_of(text, _ACCENT, _BOUNDARY)
+    for each in marked:
+        _take_out(text, each)
+    pieces = [_Piece("", text.text or ""), *(_Piece(sync.get("id", ""), sync.tail or "") for sync in text)]
+    places = {piece.mark: number for number, piece in enumerate(pieces) if piece.mark}
+    levels: dict[int, str] = {}
+    breaks: dict[int, Mapping[str, str]] = {}
+    for each in marked:
+        try:
+            first, last, pause = _span(each, places, source)
+        except RealizerError as refused:
+            yield refused.fault
+            continue
+        if name_of(each) == _ACCENT:
+            level = _LEVELS.get(each.get("level", "").lower(), "moderate")
+            levels |= dict.fromkeys(range(first, max(last, first + 1)), level)
+        else:
+            breaks[last] = {"time": f"{min(pause, LONGEST_BREAK):g}s"} if pause > 0.0 else {"strength": "medium"}
+    if levels or breaks:
+        _describe(tree, pieces, levels, breaks, source)
+
+
+def _take_out(text: Tree, child: Tree) -> None:
+    """Removes a child, but not the text behind it."""
+    before, after = child.getprevious(), child.tail or ""
+    if before is None:
+        text.text = f"{text.text or ''}{after}"
+    else:
+        before.tail = f"{before.tail or ''}{after}"
+    child.tail = None
+    text.remove(child)
+
+
+def _span(each: Tree, places: Mapping[str, int], source: BlockSource) -> tuple[int, int, float]:
+    """The pieces from the start to the end of an accent or boundary, and the time (s) between, if both name one mark.
+
+    Raises:
+        RealizerError: ``missing-attribute``, ``bad-attribute`` or ``unknown-mark``.
+    """
+    start, end = (source.ref(each, name) for name in ("start", "end"))
+    first, last = (_place(ref, each, places, source) for ref in (start, end))
+    return first, last, end.offset - start.offset if first == last else 0.0
+
+
+def _place(ref: SyncRef, each: Tree, places: Mapping[str, int], source: BlockSource) -> int:
+    if ref.sync is None or ref.sync not in places:
+        raise RealizerError(source.located(each, UnknownMark(mark=ref.sync or str(ref), known=tuple(places))))
+    return places[ref.sync]
+
+
+def _describe(
+    tree: Tree,
+    pieces: list[_Piece],
+    levels: Mapping[int, str],
+    breaks: Mapping[int, Mapping[str, str]],
+    source: BlockSource,
+) -> None:
+    """Describes a speech in SSML: each piece with its mark, the pause before it, and its emphasis."""
+    description = source.insert(tree, "description", {"priority": "0", "type": "application/ssml+xml"})
+    speak = source.insert(description, "speak")
+    for number, piece in enumerate(pieces):
+        if piece.mark:
+            _add_last(speak, "mark", {"name": piece.mark}, source)
+        if number in breaks:
+            _add_last(speak, "break", breaks[number], source)
+        level = levels.get(number)
+        if level is not None and piece.text.strip():
+            _add_last(speak, "emphasis", {"level": level}, source).text = piece.text
+        elif len(speak):
+            speak[-1].tail = piece.text
+        else:
+            speak.text = piece.text
+
+
+def _add_last(speak: Tree, name: str, attributes: Mapping[str, str], source: BlockSource) -> Tree:
+    child = etree.SubElement(speak, name, dict(attributes))
+    source.place(child, speak)
+    return child
