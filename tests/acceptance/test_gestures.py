@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.quaternion import angle, difference
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 BEAT = '<gesture id="{}" lexeme="BEAT" {} start="{}" end="{}"/>'
@@ -225,3 +226,32 @@ async def test_the_preparation_of_a_gesture_depends_on_the_posture(
     told = watched.feedback
     hanging, crossed = (told.time(f"{block}:g:ready") - told.time(f"{block}:g:start") for block in ("one", "two"))
     assert crossed < hanging - 0.05
+
+
+@pytest.mark.parametrize("named", ["RIGHT_HAND", "LEFT_HAND"])
+async def test_a_gesture_without_a_hand_leaves_the_hand_that_a_later_one_of_the_block_names(
+    pilot: RealizerPilot, named: str
+) -> None:
+    pilot.block(
+        "b",
+        '<gesture id="any" lexeme="BEAT" start="0" end="4"/>'
+        f'<gesture id="named" lexeme="BEAT" mode="{named}" start="1" end="3"/>',
+    )
+    await pilot.advance(5)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:named:end") == pytest.approx(3)
+    assert pilot.feedback.time("b:any:end") == pytest.approx(4)
+
+
+async def test_a_gesture_without_a_hand_uses_its_first_choice_if_a_later_one_starts_after_it(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.watch()
+    pilot.block(
+        "b",
+        '<gesture id="any" lexeme="BEAT" start="0" end="2"/><gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="2"/>',
+    )
+    await pilot.advance(1.2)
+    first, last = pilot.bodies()[0], pilot.bodies()[-1]
+    assert angle(difference(first.rotation("r_elbow"), last.rotation("r_elbow"))) > 0.2
+    assert angle(difference(first.rotation("l_elbow"), last.rotation("l_elbow"))) < 0.1

@@ -133,6 +133,7 @@ class AnimationEngine(DefaultEngine):
             self._hands,
             self._note_passed,
             self._fade_out,
+            self._claimed,
             graph,
         )
 
@@ -316,6 +317,15 @@ class AnimationEngine(DefaultEngine):
         gaze = unit.motion.gaze(0.0)
         if gaze is not None and gaze.eyes > 0.0:
             self._eye_controller.note_change(time)
+
+    def _claimed(self, unit: AnimationUnit) -> frozenset[str]:
+        """Return the resources that later behaviors of the same block name, and need before a unit only retracts."""
+        until = unit.time("relax" if "relax" in unit.timing.points else "end")
+        waiting = (other for other in self.player.units if other.block == unit.block and not other.begun)
+        naming = (other for other in waiting if other is not unit and getattr(other.behavior, "mode", None) is not None)
+        starts = ((other, other.start_and_end[0]) for other in naming)
+        claims = (other.resources for other, start in starts if start is not None and (until is None or start < until))
+        return frozenset[str]().union(*claims)
 
     def _hands(self, now: GlobalTime) -> Body | None:
         rest = hands = self._rest.body

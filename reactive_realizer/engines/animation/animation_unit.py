@@ -1,6 +1,6 @@
 """Plan units that play motions."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -60,6 +60,7 @@ class MotionContext:
             are made or not; None if they are at rest.
         passed: called when a unit passes a sync point.
         released: called when a unit ends, to take over its joints.
+        claimed: returns the resources that later behaviors of the same block name, and need while a unit plays.
         graph: of the cells of parameters.
     """
 
@@ -69,6 +70,7 @@ class MotionContext:
     hands: Callable[[GlobalTime], Body | None]
     passed: Callable[["AnimationUnit", str, GlobalTime], None]
     released: Callable[["AnimationUnit", GlobalTime], None]
+    claimed: Callable[["AnimationUnit"], frozenset[str]]
     graph: Graph
 
 
@@ -134,14 +136,21 @@ class AnimationUnit(PlanUnit):
     def settle(self, taken: frozenset[str]) -> None:
         """Choose the candidate to play (thesis 8.17).
 
-        If one hand is busy, use the other; if there is little time, a shorter motion.
+        If one hand is busy, or a later behavior of the block names it, use the other; if there is little time, a
+        shorter motion.
         """
         start, end = self.start_and_end
-        planned = self._candidates.planned
-        usable = (candidate for candidate in self._candidates if candidate is planned or self._stands_in(candidate))
-        chosen = select(usable, taken, None if start is None or end is None else end - start)
+        time = None if start is None or end is None else end - start
+        chosen = select(self._usable(), taken, time)
+        if (claimed := self._context.claimed(self)) & chosen.motion.resources:
+            other = select(self._usable(), taken | claimed, time)
+            chosen = chosen if other.motion.resources & (taken | claimed) else other
         if chosen.motion is not self.motion:
             self._play(chosen, keys_of(self.behavior, chosen.motion))
+
+    def _usable(self) -> Iterator[Candidate]:
+        planned = self._candidates.planned
+        return (candidate for candidate in self._candidates if candidate is planned or self._stands_in(candidate))
 
     def continue_from(self, body: Body) -> None:
         """Expect to begin where a body is, if that needs less time than from rest."""
