@@ -249,7 +249,8 @@ async def test_a_gesture_without_a_hand_uses_its_first_choice_if_a_later_one_sta
     pilot.watch()
     pilot.block(
         "b",
-        '<gesture id="any" lexeme="BEAT" start="0" end="2"/><gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="2"/>',
+        '<gesture id="any" lexeme="BEAT" start="0" end="2"/>'
+        '<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="2"/>',
     )
     await pilot.advance(1.2)
     first, last = pilot.bodies()[0], pilot.bodies()[-1]

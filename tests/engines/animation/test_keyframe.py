@@ -9,7 +9,7 @@ import pytest
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, from_axis_angle
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, from_axis_angle, multiply
 from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint
 from reactive_realizer.engines.animation.keyframe.keyframe_files import (
     read_interpolator_file,
@@ -308,3 +308,15 @@ def test_the_shortest_duration_of_a_turn_does_not_depend_on_its_number_of_keys(s
 
     assert shortest(2) == pytest.approx(shortest(200), rel=0.05)
     assert 0.1 < shortest(200) < 1.0
+
+
+def test_vertebrae_turn_for_those_that_a_figure_lacks(skeleton: Skeleton) -> None:
+    whole = clip(
+        "0 1 0 0 0.1 0 1 0 0.2 1 0 0 0.3  1 1 0 0 0.2 0 1 0 0.2 1 0 0 0.3",
+        'parts="vl5 vl2 tail" encoding="R" rotationEncoding="axisangles"',
+    )
+    folded = whole.folded(skeleton.joints)
+    assert set(folded.joints) == {"vl5", "tail"}
+    low, high = from_axis_angle((1.0, 0.0, 0.0), 0.2), from_axis_angle((0.0, 1.0, 0.0), 0.2)
+    assert folded.rotations_at(1.0)["vl5"] == pytest.approx(multiply(low, high))
+    assert whole.folded({"vl5", "vl2"}) is whole

@@ -9,7 +9,7 @@ import pytest
 
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import IDENTITY, angle, from_axis_angle, from_euler, rotate
+from reactive_realizer.embodiment.quaternion import IDENTITY, angle, from_axis_angle, from_euler, multiply, rotate
 from reactive_realizer.embodiment.vector import Vec3, add, distance
 from reactive_realizer.engines.animation.expression.compiler import compile_formulas
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionUnit
@@ -147,13 +147,29 @@ def test_joints_are_turned_from_the_root_outward_in_any_order_of_the_file(
 def test_joints_that_a_figure_lacks_are_left_out_and_logged_once(
     read: Callable[..., ProceduralAnimation], skeleton: Skeleton, caplog: pytest.LogCaptureFixture
 ) -> None:
-    animation = read('<Rotation target="vc7" rotation="1;0;0"/><Rotation target="vc4" rotation="t;0;0"/>')
+    animation = read('<Rotation target="tail" rotation="1;0;0"/><Rotation target="vc4" rotation="t;0;0"/>')
     with caplog.at_level("WARNING"):
         fitted = animation.fitted_to(skeleton)
-        assert fitted.lacking == {"vc7"}
+        assert fitted.lacking == {"tail"}
         for phase in (0.0, 0.5, 1.0):
             assert fitted.sample(phase, {}, Body(skeleton)).rotations == {"vc4": from_euler(phase, 0.0, 0.0)}
-    assert [record.message for record in caplog.records] == ["some.xml: this figure cannot turn vc7; left out"]
+    assert [record.message for record in caplog.records] == ["some.xml: this figure cannot turn tail; left out"]
+
+
+def test_vertebrae_turn_for_those_that_a_figure_lacks(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
+) -> None:
+    parts = {"vl1": "0;0.1;0", "vl5": "0.2*t;0;0", "vl3": "0;0;0.3*a", "vc2": "0;0.4;0", "vt1": "0.1;0;0"}
+    animation = read(
+        "".join(f'<Rotation target="{joint}" rotation="{turn}"/>' for joint, turn in parts.items())
+        + '<Parameter sid="a" value="0.5"/>'
+    )
+    posed = animation.fitted_to(skeleton).sample(0.5, {"a": 0.5}, Body(skeleton)).rotations
+    assert set(posed) == {"vl5", "vt6", "vc4"}
+    lumbar = multiply(multiply(from_euler(0.1, 0.0, 0.0), from_euler(0.0, 0.0, 0.15)), from_euler(0.0, 0.1, 0.0))
+    assert posed["vl5"] == pytest.approx(lumbar)
+    assert posed["vc4"] == pytest.approx(from_euler(0.0, 0.4, 0.0))
+    assert posed["vt6"] == pytest.approx(from_euler(0.1, 0.0, 0.0))
 
 
 def test_a_limb_with_a_bone_without_a_length_is_left_out(

@@ -4,14 +4,17 @@ import math
 from bisect import bisect_right
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
+from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.joints import ROOT, other_side
 from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.spine import folded_spine
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.faults import BadKeys
+from reactive_realizer.engines.animation.keyframe.capture import product
 from reactive_realizer.errors import RealizerError
 
 _PASSES = 2
@@ -135,6 +138,17 @@ class Clip:
         return replace(
             self, joints=names, rotations=self.rotations[:, chosen], roots=self.roots if ROOT in names else None
         )
+
+    def folded(self, known: Collection[str]) -> "Clip":
+        """Return the clip for a figure with some joints: vertebrae turn for those that it lacks (`folded_spine`)."""
+        groups = folded_spine(self.joints, known)
+        if all(own == (joint,) for joint, own in groups.items()):
+            return self
+        columns = {joint: self.rotations[:, number] for number, joint in enumerate(self.joints)}
+        gone = {joint for own in groups.values() for joint in own}
+        kept = {joint: column for joint, column in columns.items() if joint not in gone}
+        kept |= {joint: reduce(product, (columns[each] for each in own)) for joint, own in groups.items()}
+        return replace(self, joints=tuple(kept), rotations=continuous(np.stack(list(kept.values()), axis=1)))
 
     def filtered(self, cutoff: float) -> "Clip":
         """Return the clip low-pass filtered at a frequency, Hz, which removes the noise of captures (thesis 3.2.2.2).

@@ -159,8 +159,10 @@ class KeyframeMaker:
         clip = self._clip(request)
         clip = clip.mirrored() if request.mirror else clip
         chosen = request.joints or frozenset(clip.joints)
-        there = [joint for joint in clip.joints if joint in chosen and joint in self._skeleton]
-        lacking = chosen.difference(there)
+        clip, lacking = clip.only(chosen), chosen.difference(clip.joints)
+        clip = clip.folded(self._skeleton.joints)
+        there = [joint for joint in clip.joints if joint in self._skeleton]
+        lacking |= frozenset(clip.joints).difference(there)
         if not there:
             raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element=request.behavior.name))
         if lacking:

@@ -166,4 +166,4 @@ class ClipTrack:
 
     def fitted_to(self, skeleton: Skeleton) -> "ClipTrack | None":
         """See `Track`."""
-        return self.restricted_to(frozenset(skeleton.joints))
+        return ClipTrack(self.clip.folded(skeleton.joints)).restricted_to(frozenset(skeleton.joints))

@@ -19,7 +19,7 @@ from reactive_realizer.engines.animation.expression.syntax import Formula
 from reactive_realizer.engines.animation.faults import BadKeys, NoMotion, NoneTurned, NotReachable
 from reactive_realizer.engines.animation.motion_unit import MotionPose
 from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, carried_as_shown, share_twist
-from reactive_realizer.engines.animation.procedural.tracks import Formulas, RootTrack, RotationTrack, Track
+from reactive_realizer.engines.animation.procedural.tracks import Formulas, RootTrack, RotationTrack, Track, fold_spine
 from reactive_realizer.errors import Fault, RealizerError
 
 _log = logging.getLogger(__name__)
@@ -215,11 +215,12 @@ class ProceduralAnimation:
     def fitted_to(self, skeleton: Skeleton) -> "ProceduralAnimation":
         """Return the part of the animation that a figure can perform, from its root outward.
 
-        An arm turns before its hand. Joints that the figure lacks and limbs with a bone without a length are left out
-        and logged.
+        An arm turns before its hand. Vertebrae turn for those that the figure lacks. Other joints that it lacks and
+        limbs with a bone without a length are left out and logged.
         """
-        tracks = [part for track in self.tracks if (part := track.fitted_to(skeleton)) is not None]
-        missing = self.joints.difference(*(track.joints for track in tracks))
+        folded = fold_spine(self.tracks, skeleton)
+        tracks = [part for track in folded if (part := track.fitted_to(skeleton)) is not None]
+        missing = frozenset[str]().union(*(track.joints for track in folded)).difference(*(t.joints for t in tracks))
         if missing:
             _log.warning("%s: this figure cannot turn %s; left out", self.name, ", ".join(sorted(missing)))
         depth = {joint: len(skeleton.links(joint)) for track in tracks for joint in track.joints}

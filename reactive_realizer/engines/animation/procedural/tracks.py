@@ -8,6 +8,7 @@ from typing import NamedTuple, Protocol, Self
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import ROOT, other_side
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_euler, multiply
+from reactive_realizer.embodiment.spine import folded_spine
 from reactive_realizer.embodiment.vector import Vec3, subtract
 from reactive_realizer.engines.animation.expression.compiler import fold
 from reactive_realizer.engines.animation.expression.syntax import Constant, Formula, Negation
@@ -123,6 +124,51 @@ class RotationTrack(JointTrack):
     def mirrored(self) -> "RotationTrack":
         """See `Track`."""
         return RotationTrack(other_side(self.joint), self.local, negated(self.formulas, 1, 2))
+
+
+@dataclass(frozen=True, slots=True)
+class FoldedTrack(JointTrack):
+    """Turns a vertebra for those that a figure lacks, too (`folded_spine`).
+
+    Attributes:
+        parts: the tracks of all of them, from the lowest up.
+    """
+
+    parts: tuple[Track, ...]
+
+    @property
+    def formulas(self) -> Formulas:
+        """See `Track`."""
+        return tuple(formula for part in self.parts for formula in part.formulas)
+
+    @property
+    def independent(self) -> bool:
+        """See `Track`."""
+        return all(part.independent for part in self.parts)
+
+    def evaluate(self, values: Sequence[float], phase: float, body: Callable[[], Body]) -> TrackPose:
+        """See `Track`."""
+        turned, first = IDENTITY, 0
+        for part in self.parts:
+            last = first + len(part.formulas)
+            for rotation in part.evaluate(values[first:last], phase, body).rotations.values():
+                turned = multiply(turned, rotation)
+            first = last
+        return TrackPose({self.joint: turned})
+
+    def mirrored(self) -> "FoldedTrack":
+        """See `Track`."""
+        return FoldedTrack(self.joint, tuple(part.mirrored() for part in self.parts))
+
+
+def fold_spine(tracks: Sequence[Track], skeleton: Skeleton) -> list[Track]:
+    """Return tracks for a figure: those of vertebrae that it lacks are played by others, if they are local."""
+    single = {track.joint: track for track in tracks if isinstance(track, JointTrack)}
+    able = [joint for joint, track in single.items() if joint in skeleton or track.independent]
+    groups = {joint: own for joint, own in folded_spine(able, skeleton.joints).items() if own != (joint,)}
+    folded = [FoldedTrack(joint, tuple(single[each] for each in own)) for joint, own in groups.items()]
+    gone = [single[each] for own in groups.values() for each in own]
+    return [*(track for track in tracks if track not in gone), *folded]
 
 
 @dataclass(frozen=True, slots=True)
