@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import JointRotations
-from reactive_realizer.embodiment.quaternion import from_axis_angle, normalize, rotate
+from reactive_realizer.embodiment.quaternion import angle, difference, from_axis_angle, normalize, rotate
 from reactive_realizer.embodiment.vector import UP
 from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.clip import Clip
@@ -33,6 +33,7 @@ Z_UP = from_axis_angle((1.0, 0.0, 0.0), 1.5707963267948966)
 MIDDLE = {"Hips": "Hips", "Spine": "Spine", "Spine1": "Chest", "Neck": "Neck", "Head": "Head"}
 PARTS = ("Shoulder", "Arm", "ForeArm", "Hand", "UpLeg", "Leg", "Foot")
 MAYA = ("Shoulder", "UpperArm", "LowerArm", "Hand", "UpperLeg", "LowerLeg", "Foot")
+ACCLAIM = ("clavicle", "humerus", "radius", "hand", "femur", "tibia", "foot")
 BIPED = ("Clavicle", "UpperArm", "Forearm", "Hand", "Thigh", "Calf", "Foot")
 
 
@@ -55,6 +56,8 @@ NAMES = {
     "Rokoko": called("Left{}", "Right{}", ("Shoulder", "Arm", "ForeArm", "Hand", "Thigh", "Shin", "Foot")),
     "3ds Max": called("Bip01 L {}", "Bip01 R {}", BIPED, Hips="Bip01 Pelvis", Head="Bip01 Head"),
     "Unreal": called("{}_l", "{}_r", tuple(map(str.lower, BIPED)), Hips="pelvis", Head="head"),
+    "Acclaim": called("l{}", "r{}", ACCLAIM, Hips="root", Spine="lowerback", Spine1="thorax", Neck="neck", Head="head"),
+    "EMBR": called("{}.Left", "{}.Right", ACCLAIM, Hips="root", Spine="spine1", Spine1="spine2", Head="head"),
     "VRoid": called("J_Bip_L_{}", "J_Bip_R_{}", MAYA, Head="J_Bip_C_Head"),
 }
 
@@ -74,6 +77,18 @@ def test_joint_names_of_several_vendors_are_known(clip: Callable[[str], Clip], k
     found = clip(bvh(POSE, POSE, names=NAMES[kind]))
     assert_same_directions(found, 0.0, SKELETON, POSE)
     assert {"HumanoidRoot", "vl5", "vt6", "vc4", "skullbase"} <= set(found.joints)
+
+
+def test_fingers_may_be_numbered_from_the_thumb_as_in_poses_of_embr(clip: Callable[[str], Clip]) -> None:
+    finger = [(f"2{bone}.Left", (2.0, 0.0, 0.0)) for bone in ("Cp", "Mcp", "Prox", "Dist")]
+    above = ["LeftHand", *(name for name, _ in finger)]
+    bones = (*T_POSE, *((name, up, offset) for (name, offset), up in zip(finger, above, strict=False)))
+    found = clip(bvh({}, {"2Prox.Left": (-60.0, 0.0, 0.0)}, bones=bones))
+    assert {"l_index1", "l_index2", "l_index3"} <= set(found.joints)
+    straight, bent = (found.rotations_at(time) for time in (0.0, 1.0))
+    turns = {joint: math.degrees(angle(difference(straight[joint], bent[joint]))) for joint in straight}
+    assert turns["l_index2"] == pytest.approx(60.0)
+    assert turns["l_index1"] == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.joints import FINGERS, ROOT
 from reactive_realizer.embodiment.mixamo import JOINTS
 from reactive_realizer.embodiment.vector import Vec3
 
@@ -143,13 +143,18 @@ _NAMED_AFTER_BONES = {
     # MotionBuilder uses Mixamo's names, and so do the CMU captures as converted by B. Hahne.
     **{bone[4:].lower(): joint[2:] for bone, joint in JOINTS.items() if bone.startswith("Left")},
     **dict.fromkeys(("collar", "clavicle"), "sternoclavicular"),
-    **dict.fromkeys(("upperarm", "shldr"), "shoulder"),
-    "lowerarm": "elbow",
-    **dict.fromkeys(("upperleg", "thigh"), "hip"),
-    **dict.fromkeys(("lowerleg", "shin", "calf"), "knee"),
+    **dict.fromkeys(("upperarm", "shldr", "humerus"), "shoulder"),
+    **dict.fromkeys(("lowerarm", "radius"), "elbow"),
+    **dict.fromkeys(("upperleg", "thigh", "femur"), "hip"),
+    **dict.fromkeys(("lowerleg", "shin", "calf", "tibia"), "knee"),
     **dict.fromkeys(("toe", "toes", "toe0"), "midtarsal"),
+    **{
+        f"{number}{bone}": f"{finger}{joint}"
+        for number, finger in enumerate(FINGERS, 1)
+        for joint, bone in enumerate(("mcp", "prox", "dist"), 1)
+    },
 }
-"""Names in Mixamo, Rokoko, Poser, 3ds Max, Unreal, and many other files."""
+"""Names in Mixamo, Rokoko, Poser, 3ds Max, Unreal, Acclaim, and many other files; of fingers also in EMBR's poses."""
 
 _NAMED_AFTER_JOINTS = {
     "collar": "sternoclavicular",
@@ -211,8 +216,11 @@ def _vertebrae(spine: Sequence[int]) -> dict[str, int]:
 
 
 def _words(name: str) -> list[str]:
-    """Split a name into words, without the prefix before a colon."""
-    return [word.lower() for word in _WORD.findall(name.rpartition(":")[2])]
+    """Split a name into words, without the prefix before a colon; the side of lhumerus is a word of its own."""
+    words = [word.lower() for word in _WORD.findall(name.rpartition(":")[2])]
+    if len(words) == 1 and words[0][0] in "lr" and words[0][1:] in _NAMED_AFTER_BONES:
+        return [words[0][0], words[0][1:]]
+    return words
 
 
 def _upwards(joints: Sequence[CapturedJoint], index: int) -> Iterator[int]:
