@@ -193,7 +193,7 @@ spellings of the drafts. It does not guess: anything outside this table causes a
 | `synchronize ref="..."` | an additional `sync` in it |
 | `event message="NAME content" stroke="..."` | `bmla:emit event="NAME" start="..."` with the content |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
-| names of elements in capital letters | in lowercase |
+| names of elements in capital letters, or of Greta's namespace | in lowercase, without a namespace |
 
 A `gaze` or `posture` without a constraint on its end [persists](semantics.md#persistent-behaviors-and-shifts).
 A reference to a behavior of another block requires `allowexternalrefs="true"`.

@@ -20,7 +20,7 @@ from reactive_realizer.bml.block import (
 )
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.content_reader import ContentReader
-from reactive_realizer.bml.draft_documents import BlockNames, lower_names, unwrapped
+from reactive_realizer.bml.draft_documents import BlockNames, rename_elements, unwrapped
 from reactive_realizer.bml.drafts import modernize_block
 from reactive_realizer.bml.faults import (
     NoBlock,
@@ -78,7 +78,7 @@ def _read(text: str | bytes, limits: Limits, name: str) -> Iterator[Parsed]:
         if isinstance(root, Problem):
             yield Parsed(None, (root,))
         else:
-            lower_names(root.tree)
+            rename_elements(root.tree)
             ids.give(root.tree)
             yield _BlockReader(root, limits).read()
 

@@ -12,15 +12,19 @@ from reactive_realizer.errors import Fault
 
 _WRAPPERS: Final = frozenset({"fml-apml", "act"})
 """Elements around blocks: of Greta, with its intentions (FML) beside them, and of SmartBody."""
+_GRETA: Final = "gretaNameSpace"
+"""The namespace in which Greta writes its additions to BML."""
 _ROUTING: Final = "participant"
 """The element by which SmartBody addresses an act; here, whoever sends a document does that."""
 
 
-def lower_names(block: Tree) -> None:
-    """Rewrite names of elements in capital letters, as EMBOTS allows them, in place."""
+def rename_elements(block: Tree) -> None:
+    """Rewrite the names of elements of a draft, in place: those in capital letters, and those in Greta's namespace."""
     if not namespace_of(block):
         for each in block.iter("*"):
-            if each.tag.isupper():
+            if namespace_of(each) == _GRETA:
+                each.tag = name_of(each)
+            if each.tag.isupper():  # EMBOTS
                 each.tag = each.tag.lower()
 
 
@@ -37,7 +41,7 @@ class BlockNames:
 
     def give(self, block: Tree) -> None:
         """Give a block of a draft an id if it has none."""
-        if namespace_of(block) or name_of(block).lower() != "bml" or block.get("id") is not None:
+        if namespace_of(block) or not _is_block(block) or block.get("id") is not None:
             return
         self._given += 1
         block.set("id", self._name if self._given == 1 else f"{self._name}_{self._given}")
@@ -54,10 +58,10 @@ def unwrapped(roots: Iterable[Root | Problem]) -> Iterator[Root | Problem]:
 
 def _inside(wrapper: Root) -> Iterator[Root | Problem]:
     """The blocks in a wrapper; the first one has the notes about what is left out."""
-    blocks = [child for child in wrapper.tree if name_of(child).lower() == "bml"]
-    others = [child for child in wrapper.tree if child not in blocks and len(child) + len(child.attrib)]
+    blocks = [child for child in wrapper.tree if _is_block(child)]
+    others = (child for child in wrapper.tree if not _is_block(child) and name_of(child) != _ROUTING)
+    left_out = [child for child in others if len(child) + len(child.attrib)]
     notes: list[Fault] = []
-    left_out = [child for child in others if name_of(child) != _ROUTING]
     if left_out:
         place = wrapper.locations[left_out[0]]
         fault = LeftOut(elements=tuple(dict.fromkeys(map(name_of, left_out))), parent=name_of(wrapper.tree))
@@ -67,3 +71,7 @@ def _inside(wrapper: Root) -> Iterator[Root | Problem]:
         yield Problem(NoBlock().located(place.line, place.column), BLOCK)
     for number, block in enumerate(blocks):
         yield Root(block, wrapper.locations, tuple(notes) if number == 0 else ())
+
+
+def _is_block(tree: Tree) -> bool:
+    return name_of(tree).lower() == "bml"

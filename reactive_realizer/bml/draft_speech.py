@@ -4,13 +4,15 @@ Accents and boundaries (APML: B. De Carolis, C. Pelachaud, I. Poggi and M. Steed
 believable behavior generation", 2004) become a description of the speech in SSML, which voices follow as they can.
 """
 
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Final, NamedTuple
 
 from lxml import etree
 
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import UnknownMark
+from reactive_realizer.bml.faults import TooMuchMarkup, UnknownMark
+from reactive_realizer.bml.ssml_reader import MOST_MARKUP
 from reactive_realizer.bml.ssml_values import LONGEST_BREAK
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
@@ -22,6 +24,7 @@ _OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax")
 """Sync points that speech files of SmartBody state, and that a speech does not have."""
 _MARKS: Final = ("tm", "mark")
 _ACCENT, _BOUNDARY = "pitchaccent", "boundary"
+_STRENGTHS: Final = ("strong", "moderate", "reduced", "none")
 _LEVELS: Final = {"none": "none", "reduced": "reduced", "low": "reduced", "strong": "strong", "high": "strong"}
 
 
@@ -45,20 +48,25 @@ def _wrap_text(tree: Tree, said: str, source: BlockSource) -> None:
     """Moves the text and its sync points into a ``<text>`` element; without any, that has the text of the attribute."""
     written = bool(stray_text_of(tree))
     text = source.insert(tree, "text")
-    text.text, tree.text = tree.text if written else said, None
+    pieces, tree.text = [tree.text or "" if written else said], None
     for child in list(tree)[1:]:
         if name_of(child) != "description":
+            _say(text, pieces)
+            pieces = [child.tail or ""]
             text.append(child)
         else:
-            _append_text(text, child.tail or "")
+            pieces.append(child.tail or "")
             child.tail = None
+    _say(text, pieces)
 
 
-def _append_text(text: Tree, piece: str) -> None:
-    if len(text):
-        text[-1].tail = f"{text[-1].tail or ''}{piece}"
+def _say(text: Tree, pieces: Iterable[str], before: Tree | None = None) -> None:
+    """Sets the text in front of a child of an element, or behind the last one."""
+    last = before.getprevious() if before is not None else text[-1] if len(text) else None
+    if last is None:
+        text.text = "".join(pieces)
     else:
-        text.text = f"{text.text or ''}{piece}"
+        last.tail = "".join(pieces)
 
 
 def _describe_file(tree: Tree, ref: str, source: BlockSource) -> None:
@@ -78,11 +86,12 @@ class _Piece(NamedTuple):
 def _prosody(tree: Tree, text: Tree, source: BlockSource) -> Iterator[Fault]:
     """Takes accents and boundaries out of a text, and describes the speech with them."""
     marked = children_of(text, _ACCENT, _BOUNDARY)
-    for each in marked:
-        _take_out(text, each)
-    pieces = [_Piece("", text.text or ""), *(_Piece(sync.get("id", ""), sync.tail or "") for sync in text)]
+    if len(marked) > MOST_MARKUP:
+        yield source.located(text, TooMuchMarkup(limit=MOST_MARKUP))
+        return
+    pieces = _without(marked, text)
     places = {piece.mark: number for number, piece in enumerate(pieces) if piece.mark}
-    levels: dict[int, str] = {}
+    changes: dict[str, Counter[int]] = {level: Counter() for level in _STRENGTHS}
     breaks: dict[int, Mapping[str, str]] = {}
     for each in marked:
         try:
@@ -91,23 +100,44 @@ def _prosody(tree: Tree, text: Tree, source: BlockSource) -> Iterator[Fault]:
             yield refused.fault
             continue
         if name_of(each) == _ACCENT:
-            level = _LEVELS.get(each.get("level", "").lower(), "moderate")
-            levels |= dict.fromkeys(range(first, max(last, first + 1)), level)
+            change = changes[_LEVELS.get(each.get("level", "").lower(), "moderate")]
+            change[first] += 1
+            change[max(last, first + 1)] -= 1
         else:
             breaks[last] = {"time": f"{min(pause, LONGEST_BREAK):g}s"} if pause > 0.0 else {"strength": "medium"}
-    if levels or breaks:
-        _describe(tree, pieces, levels, breaks, source)
+    if breaks or any(changes.values()):
+        _describe(tree, pieces, _levels(changes, len(pieces)), breaks, source)
 
 
-def _take_out(text: Tree, child: Tree) -> None:
-    """Removes a child, but not the text behind it."""
-    before, after = child.getprevious(), child.tail or ""
-    if before is None:
-        text.text = f"{text.text or ''}{after}"
-    else:
-        before.tail = f"{before.tail or ''}{after}"
-    child.tail = None
-    text.remove(child)
+def _without(marked: Collection[Tree], text: Tree) -> list[_Piece]:
+    """The pieces of a text, from which some elements are removed, but not the text behind these."""
+    gone, pieces = set(marked), [_Piece("", text.text or "")]
+    behind = [pieces[0].text]
+    for child in list(text):
+        after = child.tail or ""
+        if child in gone:
+            child.tail = None
+            text.remove(child)
+            behind.append(after)
+            pieces[-1] = pieces[-1]._replace(text=pieces[-1].text + after)
+        else:
+            _say(text, behind, before=child)
+            behind = [after]
+            pieces.append(_Piece(child.get("id", ""), "".join(map(str, child.itertext())) + after))
+    if gone:
+        _say(text, behind)
+    return pieces
+
+
+def _levels(changes: Mapping[str, Counter[int]], size: int) -> list[str]:
+    """The strongest emphasis of each piece, or an empty text."""
+    open_ = dict.fromkeys(_STRENGTHS, 0)
+    levels = []
+    for number in range(size):
+        for level, change in changes.items():
+            open_[level] += change[number]
+        levels.append(next((level for level in _STRENGTHS if open_[level]), ""))
+    return levels
 
 
 def _span(each: Tree, places: Mapping[str, int], source: BlockSource) -> tuple[int, int, float]:
@@ -130,7 +160,7 @@ def _place(ref: SyncRef, each: Tree, places: Mapping[str, int], source: BlockSou
 def _describe(
     tree: Tree,
     pieces: list[_Piece],
-    levels: Mapping[int, str],
+    levels: Sequence[str],
     breaks: Mapping[int, Mapping[str, str]],
     source: BlockSource,
 ) -> None:
@@ -142,9 +172,8 @@ def _describe(
             _add_last(speak, "mark", {"name": piece.mark}, source)
         if number in breaks:
             _add_last(speak, "break", breaks[number], source)
-        level = levels.get(number)
-        if level is not None and piece.text.strip():
-            _add_last(speak, "emphasis", {"level": level}, source).text = piece.text
+        if levels[number] and piece.text.strip():
+            _add_last(speak, "emphasis", {"level": levels[number]}, source).text = piece.text
         elif len(speak):
             speak[-1].tail = piece.text
         else:

@@ -78,6 +78,10 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object]]] = {
     '<body id="x" posture="Sulk"/>': (Posture, {"poses": (Pose(part=PosePart.WHOLEBODY, lexeme="Sulk"),)}),
     '<shoulder id="x" lexeme="UP"/>': (Posture, {"poses": (Pose(part=PosePart.ARMS, lexeme="UP"),)}),
     '<WAIT id="x" duration="1"/>': (Wait, {"duration": 1.0}),
+    '<greta:torso xmlns:greta="gretaNameSpace" id="x" lexeme="Neutral"/>': (
+        Posture,
+        {"poses": (Pose(part=PosePart.WHOLEBODY, lexeme="WHOLEBODY_NEUTRAL"),)},
+    ),
     '<gesture id="x" type="BEAT" hand="left"/>': (Gesture, {"lexeme": "BEAT", "mode": Mode.LEFT_HAND}),
     '<gesture id="x" type="LEXICALIZED" lexeme="wave" hand="BOTH"/>': (
         Gesture,
@@ -268,6 +272,12 @@ def test_accents_and_boundaries_between_marks_are_prosody(name: str) -> None:
 def test_an_accent_between_unknown_marks_is_left_out_with_a_problem() -> None:
     (problem,) = read('<speech id="x">so <tm id="a"/>be it<pitchaccent start="x:a" end="x:z"/></speech>').problems
     assert problem.fault.sentence == "the speech has no inline sync point 'z'; it has a"
+
+
+def test_too_many_accents_are_left_out_with_problems() -> None:
+    accents = '<pitchaccent start="x:a" end="x:a"/>' * 1_001
+    problems = read(f'<speech id="x"><tm id="a"/>so{accents}</speech>').problems
+    assert [problem.fault.code for problem in problems] == ["too-much-markup", "unknown-element"]
 
 
 def test_text_around_descriptions_keeps_its_order() -> None:
