@@ -37,6 +37,15 @@ async def test_the_first_message_has_the_characters_and_the_order_of_their_bones
         assert hello["demo"] is False
 
 
+async def test_a_document_may_name_the_media_type_of_its_dialect(on_air: Open) -> None:
+    async with on_air() as air:
+        socket = await air.connect()
+        await socket.say(type="bml", xml=wait("b1"), mediaType="application/bml+xml", ref="own")
+        assert (await socket.hear("accepted"))["blocks"] == ["b1"]
+        await socket.say(type="bml", xml=wait("b2"), mediaType="text/x-unknown", ref="other")
+        assert (await socket.hear("error"))["code"] == "wrong-media-type"
+
+
 async def test_bml_is_accepted_with_its_ref_and_reported_in_feedback(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect()
