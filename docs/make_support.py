@@ -64,6 +64,8 @@ _NOTES = {
     "faceplutchik angle": "on [the wheel of emotions](face.md#the-wheel-of-emotions), degrees",
     "head amount": "1 is the maximum",
     "gaze target": "an object of the world, a character, or a joint such as `alice:l_wrist`",
+    "locomotion target": "as for a gaze, or [coordinates](walking.md#where-to); without one, parameters say where",
+    "locomotion manner": "WALK, RUN or STRAFE",
     "gaze influence": "by default, HEAD; `NECK` means HEAD, `TORSO` means WAIST; WHOLE does not move the feet",
     "procanimation name": "of an entry of the binding, otherwise of a file without its suffix",
     "procanimation mode": "for animations that the binding has for several hands",

@@ -358,7 +358,7 @@ class Locomotion(Behavior):
 
     SYNC_POINTS = _START_AND_END
 
-    target: str = field(metadata=attribute(Target()))
+    target: str = field(default="", metadata=attribute(Target()))
     manner: str = field(default="WALK", metadata=attribute(Text()))
 
 

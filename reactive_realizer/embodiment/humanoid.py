@@ -13,11 +13,12 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
 from reactive_realizer.embodiment.lids import with_lids
+from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import ComposedBody, Layer, LayerKind, compose
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.turn_weights import turns
-from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, distance, scale, subtract
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, distance, scale, subtract
 
 
 class EyePose(NamedTuple):
@@ -66,8 +67,9 @@ class Humanoid:
     ) -> None:
         self.avatar = avatar
         self.weight, self.simulation_steps = weight, simulation_steps
-        self._position = position
-        self._turn = from_axis_angle(UP, heading)
+        self.place = Place(position, heading)
+        """Where it stands; the next move takes place there."""
+        self._shown_place = self._place_before = self.place
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
         self._faced = frozenset(avatar.skeleton.joints).difference(EYES)
         self._arms = [joint for joint in avatar.skeleton.joints if joint in LEFT_ARM | RIGHT_ARM]
@@ -100,11 +102,11 @@ class Humanoid:
             self._limit = SpeedLimit(composed.shown)
             self._shown = composed.shown
         else:
-            self._before = self._shown
+            self._before, self._place_before = self._shown, self._shown_place
             if self._forced:
                 self._limit.release(composed.shown, self._forced)
             self._shown = self._limit(composed.shown, self._passed)
-        self._limited, self._forced = self._shown, frozenset()
+        self._limited, self._forced, self._shown_place = self._shown, frozenset(), self.place
         self.body = self._steady(composed)
 
     def simulate(self, dynamics: Dynamics) -> None:
@@ -155,11 +157,11 @@ class Humanoid:
 
     def to_own_frame(self, point: Vec3) -> Vec3:
         """Convert a point of the world to the figure's frame, m."""
-        return rotate(conjugate(self._turn), subtract(point, self._position))
+        return self.place.to_own(point)
 
     def to_own_axes(self, vector: Vec3) -> Vec3:
         """Convert a direction or a force in the axes of the world to the figure's."""
-        return rotate(conjugate(self._turn), vector)
+        return rotate(conjugate(self.place.turn), vector)
 
     def locate(self, joint: str | None, time: GlobalTime | None = None) -> Vec3 | None:
         """Return the position of a joint in the world, m; None if there is no such joint.
@@ -171,20 +173,20 @@ class Humanoid:
         name = joint or "skullbase"
         if name not in self.avatar.skeleton.joints:
             return None
-        point = _point(self._shown, joint)
+        point = self._shown_place.to_world(_point(self._shown, joint))
         ahead = 0.0 if time is None else time - self._time
         if self._before is not None and ahead > 0.0:
             # Extrapolate by one frame at most: after a gap the motion is unknown.
-            way = subtract(point, _point(self._before, joint))
+            way = subtract(point, self._place_before.to_world(_point(self._before, joint)))
             point = add(point, scale(way, min(1.0, ahead / self._passed)))
-        return add(self._position, rotate(self._turn, point))
+        return point
 
     def _root(self, moved: Vec3) -> NDArray[np.float64]:
         place = add(self.avatar.skeleton.offset(ROOT), moved)
-        return np.array(add(self._position, rotate(self._turn, place)))
+        return np.array(self._shown_place.to_world(place))
 
     def _rotations(self, pose: Mapping[str, Quat]) -> NDArray[np.float64]:
-        root = multiply(self._turn, pose.get(ROOT, IDENTITY))
+        root = multiply(self._shown_place.turn, pose.get(ROOT, IDENTITY))
         return rotation_array(self.avatar.skeleton, {**pose, ROOT: root})
 
     def _weights(self, face: Mapping[str, float]) -> NDArray[np.float64]:

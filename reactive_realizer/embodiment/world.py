@@ -54,6 +54,10 @@ class World:
             return self._living[character](joint or None, time)
         return self._positions.get(target) or _coordinates(target)
 
+    def lives(self, target: str) -> bool:
+        """Return whether a target is a character, and not one of its joints."""
+        return target in self._living
+
     @property
     def targets(self) -> Iterable[str]:
         """Names of all targets, without joints."""

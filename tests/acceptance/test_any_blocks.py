@@ -22,7 +22,7 @@ KINDS = {
     '<gaze id="{id}" target="nowhere"{syncs}/>': ("end",),
     '<wait id="{id}" duration="0.3"{syncs}/>': ("start", "end"),
     '<face id="{id}"{syncs}><faceLexeme lexeme="RAISE_BROWS" amount="1"/></face>': ("start", "end"),
-    '<locomotion id="{id}" target="bluebox"{syncs}/>': ("start",),
+    '<locomotion id="{id}" target="bluebox"{syncs}/>': ("start", "end"),
     '<bmlt:magic id="{id}"{syncs}/>': ("start",),
     '<bmla:activate id="{id}" target="a"{syncs}/>': ("start",),
     '<bmlt:activate id="{id}" target="nobody"{syncs}/>': ("start", "end"),

@@ -163,7 +163,7 @@ LAST_FAILS = """
     [
         ('<gesture id="last" lexeme="NO-SUCH"/>', "CANNOT_CREATE_BEHAVIOR"),
         ('<gaze id="last" target="nowhere"/>', "NO_SUCH_TARGET"),
-        ('<locomotion id="last" target="bluebox"/>', "BEHAVIOR_TYPE_NOT_SUPPORTED"),
+        ('<locomotion id="last" target="bluebox" manner="FLY"/>', "CANNOT_CREATE_BEHAVIOR"),
         ('<head id="last" lexeme="NOD" start="3" end="2"/>', "IMPOSSIBLE_TO_SCHEDULE"),
         ('<head id="last" lexeme="NOD" start="nobody:end"/>', "IMPOSSIBLE_TO_SCHEDULE"),
         ('<head id="last" lexeme="NOD" start="-2"/>', "IMPOSSIBLE_TO_SCHEDULE"),

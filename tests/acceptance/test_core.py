@@ -1,9 +1,11 @@
 """BML in, feedback out: blocks, ties and order."""
 
 from collections.abc import AsyncIterator
+from pathlib import Path
 
 import pytest
 
+from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 SPEECH_AND_NOD = """
@@ -158,8 +160,11 @@ async def test_a_required_behavior_that_fails_fails_its_block(pilot: RealizerPil
     assert pilot.realizer.board.snapshot() == before
 
 
-async def test_unrealized_behaviors_are_reported_and_the_rest_plays(pilot: RealizerPilot) -> None:
-    pilot.block("b", '<locomotion id="go" target="bluebox"/><head id="h" lexeme="NOD"/>')
-    await pilot.advance(3)
-    assert pilot.feedback.warnings == [("b:go", "BEHAVIOR_TYPE_NOT_SUPPORTED")]
-    assert pilot.feedback.reached("b:h:end")
+async def test_behaviors_that_no_engine_plays_are_reported_and_the_rest_plays(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text('[character.alice]\nengines = ["animation"]')
+    async with open_pilot(SceneOptions(human, voice="text")) as pilot:
+        pilot.block("b", '<face id="f"><faceLexeme lexeme="OPEN_MOUTH"/></face><head id="h" lexeme="NOD"/>')
+        await pilot.advance(3)
+        assert pilot.feedback.warnings == [("b:f", "BEHAVIOR_TYPE_NOT_SUPPORTED")]
+        assert pilot.feedback.reached("b:h:end")

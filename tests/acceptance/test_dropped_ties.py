@@ -23,8 +23,8 @@ def told(pilot: RealizerPilot, id_: str) -> list[str]:
 
 @pytest.mark.parametrize(
     "lost",
-    [SAMBA, '<locomotion id="g" target="bluebox"/>', '<gesture id="g"/>', nod("g", start="nobody:end")],
-    ids=["no such word", "not realized", "not to be read", "its own tie"],
+    [SAMBA, '<locomotion id="g" target="nowhere"/>', '<gesture id="g"/>', nod("g", start="nobody:end")],
+    ids=["no such word", "no such target", "not to be read", "its own tie"],
 )
 async def test_all_behaviors_of_a_chain_are_dropped_and_each_warning_names_the_first_dropped_one(
     pilot: RealizerPilot, lost: Any

@@ -14,7 +14,6 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
-from reactive_realizer.bml.behaviors import Locomotion
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BMLT
@@ -249,9 +248,8 @@ PARTS = {f"{number}-{chr(97 + at)}": part for number, parts in EXAMPLES.items() 
 
 LATER: dict[type[Behavior], str] = {
     ForeignBehavior: "CUSTOM_BEHAVIOUR_NOT_SUPPORTED",
-    Locomotion: "BEHAVIOR_TYPE_NOT_SUPPORTED",
 }
-"""The behaviors that are read but not realized yet, with their warnings."""
+"""The behaviors that are not realized, with their warnings."""
 
 
 @pytest.fixture(scope="module")

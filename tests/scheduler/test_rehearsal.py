@@ -50,9 +50,9 @@ async def test_a_motion_has_the_points_of_its_file(how: Rehearse) -> None:
 async def test_behaviors_that_cannot_be_played_are_problems_with_their_places(how: Rehearse) -> None:
     inside = """<gesture id="g" lexeme="DANCE"/>
       <gaze id="z" target="nobody"/>
-      <locomotion id="l" target="viewer"/>"""
+      <locomotion id="l" target="viewer" manner="FLY"/>"""
     found = await rehearsed(how, inside)
-    assert sorted(codes(found)) == [("b:g", "no-motion-for", 1), ("b:l", "not-supported", 3), ("b:z", "no-target", 2)]
+    assert sorted(codes(found)) == [("b:g", "no-motion-for", 1), ("b:l", "no-manner", 3), ("b:z", "no-target", 2)]
     assert not found.points
 
 

@@ -15,6 +15,7 @@ from reactive_realizer.bml.behaviors import (
     Gesture,
     Head,
     HeadDirectionShift,
+    Locomotion,
     Pointing,
     Posture,
     PostureShift,
@@ -25,11 +26,12 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import ReportFall, Warn
+from reactive_realizer.engine.effects import MovePoint, ReportFall, Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
@@ -55,6 +57,7 @@ from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
 from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, GazeGoal
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
+from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionMotionUnit, LocomotionUnit
 from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
 from reactive_realizer.engines.animation.motions.transition import TransitionMotionUnit, TransitionUnit
 from reactive_realizer.engines.animation.persistent_poses import PersistentPoses
@@ -62,6 +65,7 @@ from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
 from reactive_realizer.engines.animation.posture.foot_planting import FootPlanting
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
+from reactive_realizer.engines.animation.walk import Walk
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.planunit.parameter import Range
@@ -77,7 +81,17 @@ _CLAIMING = (LayerKind.FULL_BODY, LayerKind.GAZE, LayerKind.GESTURE)
 class AnimationEngine(DefaultEngine):
     """Moves the joints of one figure."""
 
-    behaviors = MOTIONS | {Gesture, Head, HeadDirectionShift, Gaze, GazeShift, Pointing, Posture, PostureShift}
+    behaviors = MOTIONS | {
+        Gesture,
+        Head,
+        HeadDirectionShift,
+        Gaze,
+        GazeShift,
+        Locomotion,
+        Pointing,
+        Posture,
+        PostureShift,
+    }
     reads_parameters = True
     parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType(
         {
@@ -85,6 +99,7 @@ class AnimationEngine(DefaultEngine):
             Head: {"amount": AMOUNT_RANGE},
             **dict.fromkeys((Gaze, GazeShift), GAZE_WEIGHTS),
             HeadDirectionShift: HEAD_WEIGHTS,
+            Locomotion: {SPEED: SPEEDS},
         }
     )
 
@@ -98,7 +113,14 @@ class AnimationEngine(DefaultEngine):
         self._humanoid.rest(self._rest.body)
         functions = plugin_functions(context.functions)
         maker_context = MakerContext(
-            context.humanoid, context.world, context.asset, context.seed, self._rest, functions
+            context.humanoid,
+            context.world,
+            context.asset,
+            context.seed,
+            self._rest,
+            functions,
+            context.character,
+            self._expected_place,
         )
         self._library = MotionLibrary(binding, maker_context)
         rate = USUAL_RATE if context.blink_rate is None else context.blink_rate
@@ -106,6 +128,7 @@ class AnimationEngine(DefaultEngine):
         self._late_hands = LateHands(context.humanoid)
         self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
+        self._walk = Walk(context.humanoid)
         self._persistent = PersistentPoses()
         self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
         self._fade_outs: list[FadeOut] = []
@@ -184,6 +207,11 @@ class AnimationEngine(DefaultEngine):
         planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
         return posture_after(self._rest.posture, planned)
 
+    def _expected_place(self) -> Place:
+        planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
+        places = [motion.place for motion in planned if isinstance(motion, LocomotionMotionUnit)]
+        return places[-1] if places else self._humanoid.place
+
     def _possible_bodies(self) -> tuple[Body, ...]:
         planned = (*self.player.playing, *self._drafts)
         return (
@@ -195,6 +223,8 @@ class AnimationEngine(DefaultEngine):
         candidates = self._library.candidates(behavior)
         if isinstance(candidates.planned.motion, TransitionMotionUnit):
             return TransitionUnit(block, behavior, candidates, self._motion_context, self._predictor.state_after)
+        if isinstance(candidates.planned.motion, LocomotionMotionUnit):
+            return LocomotionUnit(block, behavior, candidates, self._motion_context)
         unit = AnimationUnit(block, behavior, candidates, self._motion_context)
         previous = self._continued(unit)
         if previous is not None:
@@ -225,19 +255,25 @@ class AnimationEngine(DefaultEngine):
         """Return all layers: rest posture, idle animation, persistent poses, fading and playing motions, feet."""
         self._history.start_frame(tick.time)
         self._fade_outs = [fade_out for fade_out in self._fade_outs if not fade_out.finished(tick.time)]
+        walking: tuple[Layer, ...] = self._isolated(
+            "walking", lambda: self._walk.layers(tick.time, self._walks(), self._rest.body), ()
+        )
         layers = (
             self._base(),
+            *walking,
             *self._breath(tick.time),
             *self._persistent.layers(tick.time, self._humanoid.body),
             *self._stacked(tick.time),
         )
         feet: tuple[Layer, ...] = self._isolated(
-            "foot planting", lambda: self._foot_planting.layers(layers, tick.time), ()
+            "foot planting", lambda: self._foot_planting.layers(layers, tick.time, self._walk.feet), ()
         )
         return (*layers, *feet)
 
     def _breath(self, now: GlobalTime) -> tuple[Layer, ...]:
-        return self._idle_part(lambda idle: (checked(idle.layer(now, -self._humanoid.body.root[1])),), ())
+        return self._idle_part(
+            lambda idle: (checked(idle.layer(now, self._walk.stiffness - self._humanoid.body.root[1])),), ()
+        )
 
     def _idle_part(self, show: Callable[[Idle], T], fallback: T) -> T:
         """Return a part of idle animation, or a fallback if the figure has none."""
@@ -259,8 +295,16 @@ class AnimationEngine(DefaultEngine):
 
     @property
     def needs_frames(self) -> bool:
-        """Whether the figure is simulated: what happens then depends on what happened before."""
-        return self._physical_figure.active or bool(self._controlling())
+        """Whether the figure is simulated, or walks: what happens then depends on what happened before."""
+        return self._physical_figure.active or bool(self._controlling()) or self._walk.active or bool(self._walks())
+
+    def requests(self, tick: Tick) -> tuple[MovePoint, ...]:
+        """Return the moves of the ends of locomotion: the figure arrives earlier or later than expected."""
+        return tuple(move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
+
+    def _walks(self) -> list[LocomotionUnit]:
+        """Return the locomotion that plays."""
+        return [unit for unit in self.player.playing if isinstance(unit, LocomotionUnit)]
 
     def dynamics(self, tick: Tick) -> Dynamics | None:
         """Return the movement of the joints that controllers move and no motion turns (thesis 8.7.5)."""

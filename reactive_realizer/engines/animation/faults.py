@@ -102,6 +102,41 @@ class BadParameter(CreationFault):
     high: float
 
 
+class NoManner(CreationFault):
+    """No manner of locomotion has the name."""
+
+    code = "no-manner"
+    template = "there is no manner '{manner}' of locomotion; available: {known}"
+    unknown = "manner"
+    manner: str
+    known: tuple[str, ...]
+
+
+class NotWalkable(TargetFault):
+    """A target that a figure cannot walk to."""
+
+    code = "not-walkable"
+    template = "nobody can walk to '{target}': {reason}"
+    target: str
+    reason: str
+
+
+class NotStanding(CreationFault):
+    """A locomotion of a figure that does not stand."""
+
+    code = "not-standing"
+    template = "it cannot walk while {stance}; a postureShift to STANDING has to come first"
+    stance: str
+
+
+class PlaceNotReached(PlayingFault):
+    """A locomotion that has to end before the figure has arrived; ``way`` in m."""
+
+    code = "place-not-reached"
+    template = "it has to end {way:.1f} m before its target, because no figure is as fast as that"
+    way: float
+
+
 class NotPointable(CreationFault):
     """A target that a hand cannot point at."""
 

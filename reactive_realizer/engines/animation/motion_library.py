@@ -34,6 +34,7 @@ from reactive_realizer.engines.animation.motions.controller import ControllerMak
 from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
 from reactive_realizer.engines.animation.motions.gesture import GestureMaker
 from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
+from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
 from reactive_realizer.engines.animation.motions.noise import NoiseMaker
 from reactive_realizer.engines.animation.motions.pointing import PointingMaker
 from reactive_realizer.engines.animation.motions.posture import PostureMaker
@@ -57,6 +58,7 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "Keyframe": KeyframeMaker,
         "noise": NoiseMaker,
         "transition": TransitionMaker,
+        "locomotion": LocomotionMaker,
         "posture": PostureMaker,
         "posture-shift": PostureMaker,
         "PhysicalController": ControllerMaker,

@@ -10,6 +10,7 @@ from reactive_realizer.binding.asset_file import first_asset, parse_boolean
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
+from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engines.animation.expression.functions import Function
@@ -30,6 +31,8 @@ class MakerContext:
         seed: of the random generators of this character.
         rest: its rest posture.
         functions: of plug-ins, for formulas of animations.
+        character: its id.
+        place: returns where it will stand when the behavior that is being planned starts.
     """
 
     humanoid: Humanoid
@@ -38,6 +41,8 @@ class MakerContext:
     seed: int
     rest: RestPosture
     functions: Mapping[str, Function]
+    character: str
+    place: Callable[[], Place]
 
     def file_of(self, request: "MotionRequest", *suffixes: str) -> Path:
         """Return the requested file, or the asset that has the requested name and one of the suffixes.

@@ -68,19 +68,27 @@ class FootPlanting:
         self._leg_parts: object = None
         self._layers: tuple[Layer, ...] = ()
 
-    def layers(self, layers: Iterable[Layer], now: GlobalTime) -> tuple[Layer, ...]:
-        """Return further layers for the legs in a frame; none if other layers already place the feet."""
+    def layers(self, layers: Iterable[Layer], now: GlobalTime, walking: Sequence[Transform] = ()) -> tuple[Layer, ...]:
+        """Return further layers for the legs in a frame; none if other layers already place the feet.
+
+        Args:
+            layers: of the frame.
+            now: s.
+            walking: goals of the ankles of a figure that walks, left first; they take precedence over those of layers.
+        """
         concerned = [layer for layer in layers if layer.root is not None or not _MOVING.isdisjoint(layer.rotations)]
         parts = [_leg_part(layer) for layer in concerned]
         # The pelvis usually rests; then the layers of the last frame are still valid.
-        if self._legs and not (parts == self._leg_parts and self._alternation.settled):
+        if walking:
+            lower, added = _in_order(concerned)
+            body = reduce(_pushed, added, reduce(_over, lower, _stand(self._start)).body)
+            self._leg_parts, self._layers = None, (checked(Layer(LayerKind.END_EFFECTOR, legs(body, walking))),)
+        elif self._legs and not (parts == self._leg_parts and self._alternation.settled):
             self._leg_parts, self._layers = parts, tuple(map(checked, self._planted(concerned, now)))
         return self._layers
 
     def _planted(self, layers: Iterable[Layer], now: GlobalTime) -> Iterator[Layer]:
-        ordered = sorted(layers, key=lambda layer: (layer.kind, layer.priority))
-        lower = [layer for layer in ordered if layer.kind is not LayerKind.ADDITIVE]
-        added = [layer for layer in ordered if layer.kind is LayerKind.ADDITIVE]
+        lower, added = _in_order(layers)
         below, wanted, _, softness = reduce(_over, lower, _stand(self._start))
         places = self._alternation(wanted, now)
         if not added and self._alternation.settled and all(layer.weight_of(ROOT) == 1.0 for layer in lower):
@@ -94,6 +102,15 @@ class FootPlanting:
             body = _pushed(body, lowered)
             yield lowered
         yield Layer(LayerKind.END_EFFECTOR, legs(body, places))
+
+
+def _in_order(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer]]:
+    """Return the layers that are not additive, and those that are, the lowest first."""
+    ordered = sorted(layers, key=lambda layer: (layer.kind, layer.priority))
+    return (
+        [layer for layer in ordered if layer.kind is not LayerKind.ADDITIVE],
+        [layer for layer in ordered if layer.kind is LayerKind.ADDITIVE],
+    )
 
 
 def _stand(body: Body) -> _LegState:

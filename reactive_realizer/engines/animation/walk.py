@@ -1,0 +1,76 @@
+"""The walking of a figure: where its frame is, and what moves with its feet."""
+
+from collections.abc import Iterator, Sequence
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body, Transform
+from reactive_realizer.embodiment.humanoid import Humanoid
+from reactive_realizer.embodiment.pose import Layer, LayerKind, turned_further
+from reactive_realizer.engine.effects import MovePoint
+from reactive_realizer.engines.animation.easing import smoothstep
+from reactive_realizer.engines.animation.motions.locomotion import LocomotionUnit
+from reactive_realizer.engines.animation.walking.carriage import Carriage, limbs, lowering
+from reactive_realizer.engines.animation.walking.walker import Walker
+
+_UNREST = 0.1
+"""Idle animation shifts no weight in walking, as if the pelvis were lower by this, m."""
+
+_EASING = 0.5
+"""Time in which this sets in and leaves off, s."""
+
+
+class Walk:
+    """Has a figure walk as its locomotion asks for.
+
+    Attributes:
+        feet: goals of its ankles in its own frame, left first; empty while it does not walk.
+    """
+
+    def __init__(self, humanoid: Humanoid) -> None:
+        self._humanoid = humanoid
+        self._walker = Walker(humanoid.place)
+        self._carriage = Carriage()
+        self.feet: tuple[Transform, ...] = ()
+        self._walking, self._time = 0.0, GlobalTime(0.0)
+
+    @property
+    def active(self) -> bool:
+        """Whether the figure walks, or its feet are not at rest yet."""
+        return self._walker.active
+
+    @property
+    def stiffness(self) -> float:
+        """How much lower the pelvis would be of a figure that shifts its weight as little, m."""
+        return _UNREST * smoothstep(self._walking)
+
+    def moves(self, unit: LocomotionUnit, now: GlobalTime) -> Iterator[MovePoint]:
+        """Yield the moves of the end of a locomotion."""
+        yield from unit.look(now, self._humanoid.place, self._walker.course.speed)
+
+    def layers(self, now: GlobalTime, units: Sequence[LocomotionUnit], rest: Body) -> tuple[Layer, ...]:
+        """Move the figure to where it is at a time, and return the layers of its walking.
+
+        Args:
+            now: of the frame, s.
+            units: the locomotion that plays.
+            rest: the body at rest.
+        """
+        goals = [goal for unit in units if (goal := unit.goal()) is not None]
+        self._walker.advance(now, goals[-1] if goals else None, rest)
+        self._humanoid.place = self._walker.course.place
+        passed, self._time = now - self._time, now
+        change = passed / _EASING
+        moving = self.active and not self._walker.arrived
+        self._walking = min(1.0, max(0.0, self._walking + (change if moving else -change)))
+        if self._walker.arrived and not self._walking:
+            self._walker.rest()
+        if not self.active:
+            self.feet = ()
+            return ()
+        walking = smoothstep(self._walking)
+        pelvis = self._carriage.pelvis(now, self._walker, rest, walking)
+        body = turned_further(rest, pelvis)
+        poses = self._walker.poses(body)
+        self.feet = tuple(pose.ankle for pose in poses)
+        lowered = Layer(LayerKind.ADDITIVE, {}, root=(0.0, -lowering(body, poses, walking), 0.0))
+        return pelvis, lowered, limbs(self._walker.course, poses, rest)

@@ -1,0 +1,280 @@
+"""Carries a figure over the ground on two feet."""
+
+import math
+from typing import NamedTuple
+
+from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.body import Body, Transform
+from reactive_realizer.embodiment.feet import reach, walks
+from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.place import Place, between_headings
+from reactive_realizer.embodiment.quaternion import conjugate, multiply
+from reactive_realizer.embodiment.vector import Vec3, distance
+from reactive_realizer.engines.animation.easing import share
+from reactive_realizer.engines.animation.walking.course import Course, Goal
+from reactive_realizer.engines.animation.walking.foot import Foot, FootShape
+from reactive_realizer.engines.animation.walking.manner import WALK
+
+_CLOSE = 0.055
+"""Distance of an ankle from the middle in walking ahead, m: the prints are nearer to a line than at rest."""
+
+_ROLLING = 0.08
+"""How much nearer a foot comes down to the hips than it leaves them in walking ahead, m: its sole rolls meanwhile."""
+
+_STRIKE = -0.3
+"""Pitch of a foot that touches the ground in walking ahead, rad: its heel comes first."""
+
+_BACKWARD = 0.3
+"""Speed of a figure that goes backward and does not roll off, m/s."""
+
+_SHIFTING = 0.06
+"""Time in which a figure shifts its weight before its first step, s, beside the usual double support."""
+
+_SHORTEST_STEP, _LONGEST_STEP = 0.34, 0.75
+"""Bounds of the time from step to step, s, where a figure has to arrive in time."""
+
+_HIP_TURN = 0.25
+"""Way of a foot at the side of a figure that turns, m/rad."""
+
+_LEAD = 0.6
+"""How far a foot goes ahead in a step aside, as a share of the way of the figure from step to step."""
+
+_WORTH = 0.1
+"""A foot does not step to a print that is nearer than this, m, as long as the figure walks on."""
+
+_HOME, _HOME_TURN = 0.002, 0.01
+"""A foot nearer than this to where it stands at rest is there, m and rad."""
+
+
+class FootPose(NamedTuple):
+    """A foot in a frame.
+
+    Attributes:
+        ankle: its transform in the figure's frame.
+        pitch: turn that lifts the heel, rad.
+        bears: how much the pelvis goes down for it, 0 to 1.
+    """
+
+    ankle: Transform
+    pitch: float
+    bears: float
+
+
+class Walker:
+    """The place of a figure, and its feet, from frame to frame.
+
+    Prints are chosen when a foot leaves the ground, from where the course will be while it stands there. Of the last
+    steps, each foot makes one to its place at rest, and the second one ends when the course does. A goal that moves on
+    the way moves the prints of the steps that follow, and their times.
+
+    Attributes:
+        course: of the figure's frame.
+        feet: left first; empty while the figure stands at rest.
+    """
+
+    def __init__(self, place: Place) -> None:
+        """Stand at a place."""
+        self.course = Course(place)
+        self.feet: tuple[Foot, ...] = ()
+        self._now = GlobalTime(0.0)
+        self._last: int | None = None
+        self._period = 0.5
+        self._pursued: Goal | None = None
+        self._set_out_at = GlobalTime(0.0)
+
+    @property
+    def active(self) -> bool:
+        """Whether the figure is on its way, or its feet are not at rest yet."""
+        return bool(self.feet)
+
+    def advance(self, now: GlobalTime, goal: Goal | None, rest: Body) -> None:
+        """Move on to a time, s.
+
+        Args:
+            now: s; the same time again changes nothing.
+            goal: where the figure goes; without one it comes to rest.
+            rest: the body at rest, on whose feet it stands in the end.
+        """
+        since, self._now = self._now, now
+        if goal is not None:
+            if not self.feet and walks(rest.skeleton):
+                self._set_out(rest)
+            self._pursue(goal)
+        elif self._pursued is not None:
+            self._pursued = None
+            if self.course.goal is not None and now < self.course.goal.end:
+                self.course.brake(since, self.course.goal.manner)
+        if not self.feet:
+            return
+        while since < now - 1e-9:
+            time = GlobalTime(min(now, since + 0.02))
+            self.course.advance(since, time)
+            self._step(time)
+            since = time
+
+    def _set_out(self, rest: Body) -> None:
+        self.feet = tuple(Foot(FootShape.of(rest, side), self.course.place) for side in SIDES)
+        self._last, self._set_out_at = None, self._now
+
+    def _pursue(self, goal: Goal) -> None:
+        if goal != self._pursued:
+            self._pursued = goal
+            self.course.pursue(goal)
+
+    @property
+    def arrived(self) -> bool:
+        """Whether the figure has come to rest on both feet; it stays active until `rest`."""
+        goal = self.course.goal
+        return (
+            goal is not None
+            and self._pursued is None
+            and self._now >= goal.end - 1e-9
+            and all(foot.flat() and self._is_home(foot, goal.place) for foot in self.feet)
+        )
+
+    def rest(self) -> None:
+        """End the walk of a figure that has arrived."""
+        self.course, self.feet = Course(self.course.place), ()
+
+    def over_ground(self) -> tuple[Vec3, ...]:
+        """Return where the feet are in the figure's frame, without their height, m; left first."""
+        place = self.course.place
+        return tuple(place.to_own(foot.over_ground(self._now).position) for foot in self.feet)
+
+    def poses(self, body: Body) -> tuple[FootPose, ...]:
+        """Return the feet of a figure that is active, left first.
+
+        Args:
+            body: with the pelvis in its place.
+        """
+        place = self.course.place
+        return tuple(self._pose(side, foot, place, body) for side, foot in zip(SIDES, self.feet, strict=True))
+
+    def _pose(self, side: str, foot: Foot, place: Place, body: Body) -> FootPose:
+        hip = place.to_world(body.transform(f"{side}_hip").position)
+        rolls = share(self.course.forward[0], -_BACKWARD, 0.0)
+        ankle = foot.at(self._now, place, hip, reach(body.skeleton, side), rolls)
+        own = Transform(place.to_own(ankle.position), multiply(conjugate(place.turn), ankle.rotation))
+        return FootPose(own, foot.pitch, foot.bears(self._now))
+
+    @property
+    def bearing(self) -> int | None:
+        """The foot that bears the figure, or is about to: 0 is left, 1 is right; None if both do."""
+        goal = self.course.goal
+        stepping = [number for number, foot in enumerate(self.feet) if foot.step is not None]
+        if len(stepping) == 1:
+            return 1 - stepping[0]
+        following = None if goal is None or stepping or not self.feet else self._next_foot(goal, self._now)
+        return None if following is None else 1 - following
+
+    # --- steps
+
+    def _step(self, now: GlobalTime) -> None:
+        for foot in self.feet:
+            if foot.step is not None and foot.step.until <= now + 1e-9:
+                foot.touch_down()
+        goal = self.course.goal
+        if goal is None:
+            return
+        number = self._next_foot(goal, now)
+        if number is None:
+            return
+        foot, other = self.feet[number], self.feet[1 - number]
+        busy = max(other.landed, self._set_out_at + _SHIFTING) if other.step is None else other.step.until
+        support = goal.manner.double_support(self.course.speed)
+        if foot.step is None and now >= busy + support * self._period:
+            self._lift_off(number, goal, now)
+
+    def _next_foot(self, goal: Goal, now: GlobalTime) -> int | None:
+        """Return the foot that steps next, if one has to."""
+        away = [number for number in (0, 1) if not self._is_home(self.feet[number], goal.place)]
+        if now >= goal.end - 1e-9 or not away:
+            return away[0] if away and now >= goal.end else (self._alternate() if self._moves(goal, now) else None)
+        if len(away) == 1 and self._steps_left(goal, now) == 1:
+            return away[0]
+        return self._alternate()
+
+    def _moves(self, goal: Goal, now: GlobalTime) -> bool:
+        place = self.course.place
+        way = distance(place.position, goal.place.position)
+        turn = between_headings(place.heading, goal.place.heading)
+        return now < goal.end and (way > _HOME or abs(turn) > _HOME_TURN)
+
+    def _alternate(self) -> int:
+        if self._last is not None:
+            return 1 - self._last
+        aside = self._aside(self._now, 0.5)
+        if abs(aside) > 0.5:
+            return 0 if aside > 0.0 else 1
+        left, right = (self.course.place.to_own(foot.print.position)[2] for foot in self.feet)
+        return 0 if left < right - 0.01 else 1
+
+    def _is_home(self, foot: Foot, place: Place) -> bool:
+        home = self._home(foot, place)
+        near = distance(foot.goal.position, home.position) < _HOME
+        return near and abs(between_headings(foot.goal.heading, home.heading)) < _HOME_TURN
+
+    @staticmethod
+    def _home(foot: Foot, place: Place) -> Place:
+        return Place(place.to_world(foot.shape.place), place.heading)
+
+    def _steps_left(self, goal: Goal, now: GlobalTime) -> int:
+        return max(1, round((goal.end - now) / goal.manner.period(self.course.speed)))
+
+    def _lift_off(self, number: int, goal: Goal, now: GlobalTime) -> None:
+        foot, other = self.feet[number], self.feet[1 - number]
+        manner, left = goal.manner, goal.end - now
+        soon = self.course.ahead(now, GlobalTime(now + 0.3))
+        period = manner.period(max(self.course.speed, soon.speed))
+        count = max(1, round(left / period))
+        if count == 1 and left > 1.6 * _SHORTEST_STEP and not self._is_home(other, goal.place):
+            count = 2
+        if left < 4.0 * period:
+            period = min(_LONGEST_STEP, max(_SHORTEST_STEP, left / count))
+        support = manner.double_support(soon.speed)
+        swing = period * (1.0 - support)
+        if count == 1:
+            swing = max(0.8 * _SHORTEST_STEP, left)
+        until = GlobalTime(now + swing)
+        last = count <= 2 or left <= 0.0
+        target = self._home(foot, goal.place) if last else self._landing(number, until, period, support)
+        if not last and not self._worth(foot, target):
+            return
+        forward = self._share_ahead(soon)
+        foot.lift_off(target, now, until, 0.0 if last else _STRIKE * forward)
+        self._last, self._period = number, period
+
+    @staticmethod
+    def _worth(foot: Foot, target: Place) -> bool:
+        way = distance(foot.print.position, target.position)
+        return way + _HIP_TURN * abs(between_headings(foot.print.heading, target.heading)) > _WORTH
+
+    @staticmethod
+    def _share_ahead(course: Course) -> float:
+        forward, _ = course.forward
+        return min(1.0, max(0.0, forward / WALK.speed))
+
+    def _landing(self, number: int, until: GlobalTime, period: float, support: float) -> Place:
+        """Return the print of a foot that comes down at a time: the course passes over it in the middle of its stance.
+
+        In steps aside and turns, the foot on that side goes ahead, and the other one follows to its side.
+        """
+        foot, side = self.feet[number], 1.0 if number == 0 else -1.0
+        aside = self._aside(until, period) * side
+        lead = _LEAD * abs(aside) * period if aside > 0.0 else 0.0
+        stance = (1.0 - abs(aside)) * 0.5 * (1.0 + support) * period + lead
+        later = self.course.ahead(self._now, GlobalTime(until + stance))
+        ahead = self._share_ahead(later)
+        x, y, z = foot.shape.place
+        narrow = min(1.0, 2.0 * ahead)
+        place = (x + narrow * (side * _CLOSE - x), y, z - ahead * _ROLLING)
+        return Place(later.place.to_world(place), later.place.heading)
+
+    def _aside(self, now: GlobalTime, period: float) -> float:
+        """Return how much the course goes aside or turns in a time, -1 (right) to 1 (left)."""
+        before = self.course.ahead(self._now, now)
+        after = before.ahead(now, GlobalTime(now + period))
+        x, _, z = before.place.to_own(after.place.position)
+        turn = _HIP_TURN * (after.heading.at - before.heading.at)
+        whole = math.hypot(x, z) + abs(turn)
+        return 0.0 if whole < 1e-6 else max(-1.0, min(1.0, (x + turn) / whole))
