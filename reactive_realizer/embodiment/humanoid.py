@@ -11,10 +11,11 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.frame import Frame, rotation_array
+from reactive_realizer.embodiment.inertialization import Inertialization
 from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
 from reactive_realizer.embodiment.lids import with_lids
 from reactive_realizer.embodiment.place import Place
-from reactive_realizer.embodiment.pose import ComposedBody, Layer, LayerKind, compose
+from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.turn_weights import turns
@@ -73,6 +74,7 @@ class Humanoid:
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
         self._faced = frozenset(avatar.skeleton.joints).difference(EYES)
         self._arms = [joint for joint in avatar.skeleton.joints if joint in LEFT_ARM | RIGHT_ARM]
+        self._inertialization = Inertialization(avatar.skeleton)
         self._limit: SpeedLimit | None = None
         self._shown = Body(avatar.skeleton)
         self._time = GlobalTime(0.0)
@@ -88,6 +90,10 @@ class Humanoid:
         """Set the body until the first frame."""
         self.body = self._shown = body
 
+    def switch(self, joints: Iterable[str], until: GlobalTime) -> None:
+        """Expect another motion of some joints in the next frame (`Inertialization.switch`)."""
+        self._inertialization.switch(joints, until)
+
     def move(self, time: GlobalTime, layers: Iterable[Layer], faces: Iterable[Mapping[str, float]] = ()) -> None:
         """Move to the pose that layers compose for a time, turned further by the weights of faces, without a jump.
 
@@ -97,17 +103,18 @@ class Humanoid:
         turned = turns(_sum(faces), self._faced)
         added = (Layer(LayerKind.ADDITIVE, turned),) if turned else ()
         composed = compose(self.avatar.skeleton, (*layers, *added))
-        self._passed, self._time, self._wanted = time - self._time, time, composed.shown
+        smooth = self._inertialization(composed.shown, time)
+        self._passed, self._time, self._wanted = time - self._time, time, smooth
         if self._limit is None:
-            self._limit = SpeedLimit(composed.shown)
-            self._shown = composed.shown
+            self._limit, self._shown = SpeedLimit(smooth), smooth
         else:
             self._before, self._place_before = self._shown, self._shown_place
             if self._forced:
                 self._limit.release(composed.shown, self._forced)
-            self._shown = self._limit(composed.shown, self._passed)
+            self._shown = self._limit(smooth, self._passed)
+        self._inertialization.note_shown(self._shown, time)
         self._limited, self._forced, self._shown_place = self._shown, frozenset(), self.place
-        self.body = self._steady(composed)
+        self.body = self._steady(self._inertialization.offset(composed.steady), smooth)
 
     def simulate(self, dynamics: Dynamics) -> None:
         """Let forces move the figure from the pose of the last move; it may run in any thread."""
@@ -116,11 +123,11 @@ class Humanoid:
         moved = {joint: turn for joint, turn in body.pose.items() if turn is not kinematic[joint]}
         self._shown, self.body, self._forced = body, self.body.posed(moved, body.root), frozenset(moved)
 
-    def _steady(self, composed: ComposedBody) -> Body:
+    def _steady(self, steady: Body, wanted: Body) -> Body:
         """Return the body without additive motion, with arms that are slowed where they are shown."""
-        shown, wanted = self._shown.pose, composed.shown.pose
-        slower = {joint: shown[joint] for joint in self._arms if shown[joint] is not wanted[joint]}
-        return composed.steady.posed(slower) if slower else composed.steady
+        shown = self._shown.pose
+        slower = {joint: shown[joint] for joint in self._arms if shown[joint] is not wanted.pose[joint]}
+        return steady.posed(slower) if slower else steady
 
     def look(self, eyes: Eyes | None, faces: Iterable[Mapping[str, float]]) -> Frame:
         """Return the frame at the time of the last move. The eyes look from the head as shown.

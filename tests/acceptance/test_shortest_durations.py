@@ -435,7 +435,7 @@ async def warnings_of_a_target_that_moves(away: float) -> list[str]:
         pilot.watch()
         pilot.move("thing", (-0.5, 1.0, 1.0))
         await pilot.advance(0.1)
-        pilot.block("b", '<pointing id="p" target="thing" mode="RIGHT_HAND" ready="0.5" strokeEnd="0.5"/>')
+        pilot.block("b", '<pointing id="p" target="thing" mode="RIGHT_HAND" ready="0.5"/>')
         await pilot.advance(0.46)
         pilot.move("thing", (-0.5, 1.0 + away, 1.0))
         await pilot.advance(1.5)

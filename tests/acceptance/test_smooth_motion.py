@@ -44,3 +44,25 @@ async def test_a_head_whose_amount_jumps_does_not_jump(
     await still.advance(4)
     assert worst_motion(still.bodies())["head_deg_s"] < TURNED
     assert still.feedback.warnings == []
+
+
+@pytest.mark.parametrize("first", ["BEAT", "WAVE", "CHOP"])
+@pytest.mark.parametrize("time", [0.25, 0.4, 0.7])
+async def test_an_arm_goes_over_to_a_gesture_that_replaces_another_one_with_the_velocity_that_it_has(
+    still: RealizerPilot, first: str, time: float
+) -> None:
+    still.block("a", f'<gesture id="g" lexeme="{first}" mode="RIGHT_HAND"/>')
+    await still.advance(time)
+    still.block("b", '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND"/>', composition="REPLACE")
+    await still.advance(2)
+    begin = round(50 * still.feedback.time("b:g:start"))
+    assert accelerations(still.bodies(), "r_wrist")[begin - 4 : begin + 10].max() < 40.0
+    assert still.feedback.warnings == []
+
+
+async def test_an_arm_does_not_jump_when_the_amount_of_its_gesture_does(still: RealizerPilot) -> None:
+    jump = change("p", 'start="0.5"', target="g", parameter="amount", type="instant", targetValue=0.3)
+    still.block("b", f'<gesture id="g" lexeme="CHOP" mode="RIGHT_HAND" start="0.1"/>{jump}')
+    await still.advance(3)
+    assert accelerations(still.bodies(), "r_wrist").max() < MOST
+    assert still.feedback.warnings == []

@@ -1,5 +1,6 @@
 """Sync points fire once, in order, with the time of their peg, also in late ticks."""
 
+import numpy as np
 import pytest
 
 from reactive_realizer.bml.behaviors import Wait
@@ -186,13 +187,20 @@ def test_the_phase_walks_evenly_from_key_to_key() -> None:
     assert phases(unit, clock, 0.0, 0.5, 1.0, 2.0, 3.0, 4.0) == [0.0, 0.25, 0.5, 0.75, 1.0, 1.0]
 
 
-def test_a_key_that_moves_changes_the_rate_and_never_the_phase() -> None:
-    unit = Told(start=0.0, stroke=1.0, end=3.0)
+@pytest.mark.parametrize("moved", [1.2, 0.8, 5.0])
+def test_a_key_that_moves_changes_the_rate_smoothly_and_never_the_phase(moved: float) -> None:
+    unit = Told(start=0.0, stroke=1.0, end=9.0)
     clock = PhaseClock({"start": 0.0, "stroke": 0.5, "end": 1.0})
     unit.begin()
     assert clock.advance(unit, GlobalTime(0.5)) == pytest.approx(0.25)
-    unit.move("stroke", 1.5)
-    assert phases(unit, clock, 0.5, 1.0, 1.5) == [0.25, 0.375, 0.5]
+    unit.move("stroke", moved)
+    times = np.arange(0.5, moved, 0.01)
+    way = [clock.advance(unit, GlobalTime(time)) for time in times]
+    assert way[0] == pytest.approx(0.25)
+    assert way[1] - way[0] == pytest.approx(0.005, rel=0.25)
+    assert way == sorted(way)
+    assert clock.advance(unit, GlobalTime(moved)) == pytest.approx(0.5)
+    assert 0.5 - way[-1] < 0.03
 
 
 def test_the_phase_stands_still_while_the_next_key_is_unknown() -> None:

@@ -25,6 +25,7 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
+from reactive_realizer.embodiment.inertialization import CARRIED
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
@@ -43,6 +44,7 @@ from reactive_realizer.engines.animation.fade_out import (
     FadeOut,
     fade_out_duration,
     in_stacking_order,
+    moves_lower_body,
     visible_part,
     with_reached_root,
 )
@@ -157,6 +159,7 @@ class AnimationEngine(DefaultEngine):
             self._note_passed,
             self._fade_out,
             self._claimed,
+            self._humanoid.switch,
             graph,
         )
 
@@ -242,9 +245,7 @@ class AnimationEngine(DefaultEngine):
 
     def reset(self, time: GlobalTime) -> None:
         """Return to the initial posture and gaze."""
-        for layer in self._persistent.layers(time, self._humanoid.body):
-            self._start_fade_out(FadeOut(layer, time))
-        self._persistent.clear()
+        self._release(self._persistent.clear(), time)
         self._eye_controller.note_change(time)
         base, body = self._base(), self._rest.body
         if self._rest.reset():
@@ -262,13 +263,20 @@ class AnimationEngine(DefaultEngine):
             self._base(),
             *walking,
             *self._breath(tick.time),
-            *self._persistent.layers(tick.time, self._humanoid.body),
+            *self._persisting(tick.time),
             *self._stacked(tick.time),
         )
         feet: tuple[Layer, ...] = self._isolated(
             "foot planting", lambda: self._foot_planting.layers(layers, tick.time, self._walk.feet), ()
         )
         return (*layers, *feet)
+
+    def _persisting(self, now: GlobalTime) -> tuple[Layer, ...]:
+        layers = self._persistent.layers(now, self._humanoid.body)
+        for motion in self._persistent.motions:
+            if motion.jumped:
+                self._humanoid.switch(motion.joints, GlobalTime(now + motion.entrance))
+        return layers
 
     def _breath(self, now: GlobalTime) -> tuple[Layer, ...]:
         return self._idle_part(
@@ -399,22 +407,25 @@ class AnimationEngine(DefaultEngine):
         stays = done and unit.motion.persists_as is not None
         if not done:
             self._interrupted_bodies += temporary_bodies([unit.motion])
-        base, layer, coasting = (
-            self._base(),
-            with_reached_root(unit.shown, self._humanoid.shown.root),
-            unit.coasting(time),
-        )
+        base, layer = self._base(), with_reached_root(unit.shown, self._humanoid.shown.root)
         duration = fade_out_duration(layer, self._roots())
         if stays and unit.motion.becomes_rest():
             self._fade_outs = [visible_part(fade_out, layer, unit.height) for fade_out in self._fade_outs]
             duration = max(duration, fade_out_duration(base, self._roots()))
             self._start_fade_out(FadeOut(base, time, duration, under=layer.weight))
         elif stays:
-            self._persistent.keep(unit.motion, time, self._humanoid.body)
-            # A motion that was started in time has reached its pose.
-            coasting = None if unit.motion.joined is None else coasting
-        if layer.rotations or layer.root is not None:
-            self._start_fade_out(FadeOut(layer, time, duration, unit.height, coasting))
+            self._release(self._persistent.keep(unit.motion), time)
+        if moves_lower_body(layer):
+            speed = unit.weight_speed(time)
+            since = unit.shown_at if speed else time
+            self._start_fade_out(FadeOut(layer, since, duration, unit.height, speed))
+            self._humanoid.switch(layer.rotations, GlobalTime(time + CARRIED))
+        else:
+            self._release(layer.rotations, time)
+
+    def _release(self, joints: Collection[str], time: GlobalTime) -> None:
+        """Let joints go over to what is below the motion that had them."""
+        self._humanoid.switch(joints, GlobalTime(time + FADE_OUT))
 
     def _start_fade_out(self, fade_out: FadeOut) -> None:
         # A former rest posture is below everything else.

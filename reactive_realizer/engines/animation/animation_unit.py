@@ -1,6 +1,6 @@
 """Plan units that play motions."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -13,9 +13,9 @@ from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
+from reactive_realizer.embodiment.quaternion import angle, difference
 from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates, select
-from reactive_realizer.engines.animation.coasting import Coasting, LayerSample
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.fade_out import LOWEST
 from reactive_realizer.engines.animation.kinematics import KinematicState
@@ -48,6 +48,17 @@ _STAYS = frozenset({("strokeStart", "stroke"), ("stroke", "strokeEnd")})
 """The stroke of a pointing gesture is a hold."""
 
 
+CHANGE = 0.3
+"""Time in which joints go over to a motion with other parameters, s: about as long as a movement takes."""
+
+_RECENT = 0.07
+"""A layer shown longer ago says nothing about its speed, s."""
+
+
+_FOLLOWED = 0.012
+"""Turn of a joint in a frame up to which a change of parameters is followed, rad: 0.6 rad/s."""
+
+
 @dataclass(frozen=True, slots=True)
 class MotionContext:
     """The figure and its motion, as motion units see them.
@@ -61,6 +72,7 @@ class MotionContext:
         passed: called when a unit passes a sync point.
         released: called when a unit ends, to take over its joints.
         claimed: returns the resources that later behaviors of the same block name, and need while a unit plays.
+        switch: called with joints, and the time until which they go over to another motion (`Humanoid.switch`).
         graph: of the cells of parameters.
     """
 
@@ -71,6 +83,7 @@ class MotionContext:
     passed: Callable[["AnimationUnit", str, GlobalTime], None]
     released: Callable[["AnimationUnit", GlobalTime], None]
     claimed: Callable[["AnimationUnit"], frozenset[str]]
+    switch: Callable[[Iterable[str], GlobalTime], None]
     graph: Graph
 
 
@@ -81,6 +94,7 @@ class AnimationUnit(PlanUnit):
         motion: that is played.
         keys: sync id -> phase of the motion, 0 to 1.
         shown: the layer that it showed last.
+        shown_at: time of that, s.
         height: its stacking position when it was shown last.
         notes: faults of the behavior or of its motion that do not prevent playing.
     """
@@ -121,7 +135,11 @@ class AnimationUnit(PlanUnit):
         self.group = candidate.group or motion.group
         self.yields = candidate.yields
         self.shown = Layer(motion.kind, {}, 0.0)
-        self._samples: tuple[LayerSample, ...] = ()
+        self._played: Mapping[str, float] = {}
+        self._changing = False
+        self.shown_at = GlobalTime(-inf)
+        # When it was shown before that, with its weight then.
+        self._before = self.shown_at, 0.0
         self.keys = keys
         self._clock = PhaseClock(keys)
         self._names = candidate.names
@@ -195,9 +213,18 @@ class AnimationUnit(PlanUnit):
 
     def on_start(self, time: GlobalTime) -> None:
         """Start the motion from the current body. It is extrapolated to the time, unless the motion is additive."""
-        added = self.motion.kind is LayerKind.ADDITIVE
+        motion = self.motion
         self._set_shortest(time)
-        self.motion.start(self._context.body() if added else self._context.state_at(time).body)
+        added = motion.kind is LayerKind.ADDITIVE
+        motion.start(self._context.body() if added else self._context.state_at(time).body)
+        self._played = dict(motion.parameters)
+        if motion.joined is not None or not added:
+            self._context.switch(motion.joints, self._arrival(motion.joined or time, motion.entrance))
+
+    def _arrival(self, now: GlobalTime, longest: float) -> GlobalTime:
+        """Return the time at which the joints are to follow the motion again: before its next point."""
+        points = (at for point in self.ahead() if (at := point.peg.value) is not None and at > now + RESOLUTION)
+        return min(GlobalTime(now + longest), next(points, GlobalTime(inf)))
 
     def _set_shortest(self, time: GlobalTime) -> None:
         """Set the shortest duration of the preparation from where the hands are."""
@@ -223,12 +250,23 @@ class AnimationUnit(PlanUnit):
         Raises:
             RealizerError: the motion has no layer, or an invalid one; the unit should be stopped.
         """
-        context = self._context
-        layer = layer_of(self.motion, Moment(self._clock.advance(self, now), now, context.body(), context.shown()))
+        context, motion, before = self._context, self.motion, self.shown
+        if self.shown_at < now:
+            self._before = self.shown_at, self.shown.weight
+        phase = self._clock.advance(self, now)
+        layer = layer_of(motion, Moment(phase, now, context.body(), context.shown()))
         self.height = height(self)
-        self.shown = self._faded_in(layer, now)
-        self._samples = (*(sample for sample in self._samples[-1:] if sample.time < now), LayerSample(now, self.shown))
+        self.shown, self.shown_at = self._faded_in(layer, now), now
+        changed = self._parameters_jumped() and _turns(before, layer)
+        if motion.jumped or changed:
+            context.switch(motion.joints, GlobalTime(now + (CHANGE if changed else motion.entrance)))
         return self.shown
+
+    def _parameters_jumped(self) -> bool:
+        """Return whether parameters of the motion have changed since the last call, but not just before."""
+        played, self._played = self._played, dict(self.motion.parameters)
+        changed, self._changing = self._changing, played != self._played
+        return self._changing and not changed
 
     def _faded_in(self, layer: Layer, now: GlobalTime) -> Layer:
         """Scale the weight of a motion that joined late."""
@@ -237,9 +275,10 @@ class AnimationUnit(PlanUnit):
             return layer
         return replace(layer, weight=layer.weight * minimum_jerk(share(now, joined, joined + fade_in)))
 
-    def coasting(self, time: GlobalTime) -> Coasting | None:
-        """Return how the layer shown last coasts from a time on; None if unknown."""
-        return Coasting.from_samples(self._samples, time)
+    def weight_speed(self, time: GlobalTime) -> float:
+        """Return how fast the weight of its layer changes at a time, 1/s; 0 if that is not known."""
+        before, weight = self._before
+        return 0.0 if time - before > _RECENT else (self.shown.weight - weight) / (self.shown_at - before)
 
     def new_fault(self) -> Fault | None:
         """Return a fault that occurred while playing, once."""
@@ -307,6 +346,12 @@ def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, flo
     limits = _Limits(first, last, *(motion.stretch or (0.0, inf)))
     shortest = tuple(motion.shortest.items())
     return _timing(tuple(keys.items()), motion.preferred_duration, shortest, limits, holds, behavior.persistent)
+
+
+def _turns(before: Layer, after: Layer) -> bool:
+    """Return whether a joint turns further between two layers than a change that can be followed."""
+    pairs = ((before.rotations.get(joint, turn), turn) for joint, turn in after.rotations.items())
+    return any(angle(difference(one, two)) > _FOLLOWED for one, two in pairs)
 
 
 class _Limits(NamedTuple):

@@ -1,4 +1,4 @@
-"""Fades out the layers of motions that have ended or were cut. The engine does this itself; it blocks no resources."""
+"""Fades out the layers of motions of legs or root that have ended or were cut. It blocks no resources."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -6,11 +6,11 @@ from math import inf
 from operator import itemgetter
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.inertialization import CARRIED, carried, remaining
+from reactive_realizer.embodiment.joints import LOWER_BODY, ROOT
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.vector import Vec3, distance
-from reactive_realizer.engines.animation.coasting import Coasting
-from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.easing import share
 
 DURATION = 0.6
 """s; a hand released at shoulder height then stays below 2 m/s."""
@@ -46,7 +46,7 @@ class FadeOut:
         since: time when it started to fade out, s.
         duration: until it is gone, s.
         height: stacking position of its motion.
-        coasting: how it continues; None if it was at rest.
+        speed: of its weight at that time, 1/s; the weight goes on with it at first.
         under: weight of a layer above it that fades out at the same time and equals the new layer below. The weights
             are chosen such that both together go straight from the old pose to the new one.
     """
@@ -55,18 +55,21 @@ class FadeOut:
     since: GlobalTime
     duration: float = DURATION
     height: tuple[float, float] = LOWEST
-    coasting: Coasting | None = None
+    speed: float = 0.0
     under: float = 0.0
 
     def finished(self, now: GlobalTime) -> bool:
         """Return whether the layer is gone."""
-        return now >= self.since + self.duration or self.layer.weight * (1.0 - self.under) < _NOTICEABLE
+        visible = max(self.layer.weight * (1.0 - self.under), CARRIED * self.speed)
+        return now >= self.since + self.duration or visible < _NOTICEABLE
 
     def at(self, now: GlobalTime) -> Layer:
         """Return the layer at a time."""
-        layer = self.layer if self.coasting is None else self.coasting(self.layer, now)
-        left = 1.0 - minimum_jerk(share(now, self.since, self.since + self.duration))
-        return replace(layer, weight=layer.weight * left * (1.0 - self.under) / (1.0 - self.under * left))
+        left = remaining(share(now, self.since, self.since + self.duration))
+        weight = self.layer.weight * left * (1.0 - self.under) / (1.0 - self.under * left)
+        carry = min(CARRIED, self.duration)
+        further = self.speed * carry * carried(share(now, self.since, self.since + carry))
+        return replace(self.layer, weight=min(1.0, max(0.0, weight + further)))
 
 
 def in_stacking_order(
@@ -81,6 +84,11 @@ def in_stacking_order(
     """
     heights = [*((fade_out.height, fade_out.at(now)) for fade_out in fade_outs), *playing]
     return [layer for _, layer in sorted(heights, key=itemgetter(0))]
+
+
+def moves_lower_body(layer: Layer) -> bool:
+    """Return whether a layer moves legs or root, so that feet have to follow: they can only blend layers."""
+    return layer.root is not None or not LOWER_BODY.isdisjoint(layer.rotations)
 
 
 def with_reached_root(layer: Layer, root: Vec3) -> Layer:

@@ -10,6 +10,7 @@ from typing import NamedTuple, Protocol, Self
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.inertialization import CARRIED
 from reactive_realizer.embodiment.joints import LEFT_ARM, LOWER_BODY, RIGHT_ARM
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import Quat
@@ -132,8 +133,10 @@ class MotionUnit(ABC):
             are relaxed before any constraint.
         authored: the points between which they apply.
         predictability: when its poses can be predicted.
-        entrance: duration of its fade-in if it joins late, s; None if it appears at once or handles this itself.
+        entrance: time in which the joints go over to it at its start, s.
+        fade_in: duration of its fade-in if it joins late, s; None if it appears at once.
         joined: time at which it joined late, s; None if it started in time.
+        jumped: whether its goal jumped in the last pose, for a reason of its own.
         fault: that occurred while playing; None if there is none.
     """
 
@@ -154,7 +157,9 @@ class MotionUnit(ABC):
     stretch: tuple[float, float] | None = None
     authored: tuple[str, str] = ("start", "end")
     predictability: Predictability = Predictability.NEVER
+    entrance: float = CARRIED
     fade_in: float | None = None
+    jumped: bool = False
     joined: GlobalTime | None = None
     fault: Fault | None = None
 

@@ -1,12 +1,10 @@
 """Persistent poses: the last poses of shifts, which stay after their behavior has ended (BML 1.0)."""
 
 import logging
-from dataclasses import replace
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer
-from reactive_realizer.engines.animation.fade_out import FadeOut
 from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit, layer_of
 
 logger = logging.getLogger(__name__)
@@ -14,30 +12,26 @@ logger = logging.getLogger(__name__)
 _BELOW = -2
 """Priority of persistent poses: below all playing motions."""
 
-_LEAVING = -3
-"""Priority of replaced poses: below their replacement, so joints that both move do not jump."""
-
 
 class PersistentPoses:
     """Motions that have ended and persist, one for each name; they lie below all others of their kind."""
 
     def __init__(self) -> None:
         self._motions: dict[str, MotionUnit] = {}
-        self._leaving: list[FadeOut] = []
 
-    def keep(self, motion: MotionUnit, now: GlobalTime, body: Body) -> None:
-        """Keep the pose of a motion that has ended, if it persists; it replaces the one before, which fades out."""
+    def keep(self, motion: MotionUnit) -> frozenset[str]:
+        """Keep the pose of a motion that has ended, if it persists; return the joints of the one that it replaces."""
         if motion.persists_as is None:
-            return
+            return frozenset()
         replaced = self._motions.pop(motion.persists_as, None)
-        if replaced is not None and (layer := self._layer(replaced, now, body)) is not None:
-            self._leaving = [*self._left(now), FadeOut(layer, now)]
         self._motions[motion.persists_as] = motion
+        return frozenset() if replaced is None else replaced.joints
 
-    def clear(self) -> None:
-        """Remove all poses."""
+    def clear(self) -> frozenset[str]:
+        """Remove all poses; return their joints."""
+        joints = frozenset[str]().union(*(motion.joints for motion in self.motions))
         self._motions.clear()
-        self._leaving.clear()
+        return joints
 
     @property
     def motions(self) -> tuple[MotionUnit, ...]:
@@ -45,14 +39,9 @@ class PersistentPoses:
         return tuple(self._motions.values())
 
     def layers(self, now: GlobalTime, body: Body) -> tuple[Layer, ...]:
-        """Return the layers of persistent poses, and of replaced ones that fade out."""
-        self._leaving = self._left(now)
-        leaving = (replace(fade_out.at(now), priority=_LEAVING) for fade_out in self._leaving)
+        """Return the layers of persistent poses."""
         staying = (self._layer(motion, now, body) for motion in self.motions)
-        return (*leaving, *(layer for layer in staying if layer is not None))
-
-    def _left(self, now: GlobalTime) -> list[FadeOut]:
-        return [fade_out for fade_out in self._leaving if not fade_out.finished(now)]
+        return tuple(layer for layer in staying if layer is not None)
 
     def _layer(self, motion: MotionUnit, now: GlobalTime, body: Body) -> Layer | None:
         """Return the layer of a motion. A motion that fails is removed; its behavior has ended and cannot report it."""

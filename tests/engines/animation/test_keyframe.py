@@ -1,7 +1,6 @@
 """Keyframe animations: files and playback."""
 
 import math
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -151,19 +150,6 @@ def test_points_of_a_file_are_sync_points_of_its_motion(skeleton: Skeleton) -> N
     assert unit.preferred_duration == 4.0
 
 
-def test_a_keyframe_motion_starts_from_the_current_body_without_a_jump(skeleton: Skeleton) -> None:
-    begin = from_axis_angle(X, 0.5)
-    unit = KeyframeMotionUnit(arm_clip(), Body(skeleton))
-    body = Body(skeleton, {"r_shoulder": begin})
-    unit.start(body)
-    shown = [unit.pose(Moment(step / 300, GlobalTime(0.0), body)).rotations["r_shoulder"] for step in range(301)]
-    assert shown[0] == pytest.approx(begin)
-    clean = arm_clip()
-    assert shown[30] == pytest.approx(clean.rotations_at(1.0 + 3.0 * 0.1)["r_shoulder"])
-    turns = [2.0 * math.atan2(x, w) for w, x, _, _ in shown]
-    assert max(abs(b - a) for a, b in pairwise(turns)) < 0.06  # 6 rad/s; a jump would be of 0.5 rad
-
-
 def test_a_keyframe_motion_that_starts_at_the_current_body_is_not_changed(skeleton: Skeleton) -> None:
     unit = KeyframeMotionUnit(arm_clip(), Body(skeleton))
     body = Body(skeleton, {})
@@ -171,15 +157,6 @@ def test_a_keyframe_motion_that_starts_at_the_current_body_is_not_changed(skelet
     for phase in (0.0, 0.02, 0.05, 0.5):
         expected = arm_clip().rotations_at(1.0 + 3.0 * phase)["r_shoulder"]
         assert unit.pose(Moment(phase, GlobalTime(0.0), body)).rotations["r_shoulder"] == pytest.approx(expected)
-
-
-def test_a_keyframe_motion_that_joins_late_starts_from_the_current_body(skeleton: Skeleton) -> None:
-    unit = KeyframeMotionUnit(arm_clip(), Body(skeleton))
-    body = Body(skeleton, {})
-    unit.start(body)
-    assert unit.pose(Moment(0.4, GlobalTime(0.0), body)).rotations["r_shoulder"] == pytest.approx(IDENTITY)
-    expected = arm_clip().rotations_at(1.0 + 3.0 * 0.52)["r_shoulder"]
-    assert unit.pose(Moment(0.52, GlobalTime(0.0), body)).rotations["r_shoulder"] == pytest.approx(expected)
 
 
 def test_a_motion_owns_the_arms_that_it_moves_and_with_a_leg_the_stance(skeleton: Skeleton) -> None:

@@ -31,23 +31,6 @@ def gap(a: Quat, b: Quat) -> float:
     return angle(difference(a, b))
 
 
-@pytest.mark.parametrize(("duration", "arrived"), [(3.0, 0.1), (0.4, 0.25)])
-def test_it_starts_from_the_current_body_and_soon_plays_the_file(
-    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, duration: float, arrived: float
-) -> None:
-    unit = ProceduralMotionUnit(read(RISING, f'prefDuration="{duration}"'), {}, LayerKind.GESTURE)
-    body = Body(skeleton, {"r_elbow": from_euler(-1.5, 0.0, 0.3)})
-    unit.start(body)
-    assert rotation(unit, 0.0, body) == pytest.approx(body.rotation("r_elbow"))
-    lacks = [
-        gap(rotation(unit, arrived * i / 20, body), from_euler(-0.5 - arrived * i / 20, 0.0, 0.0)) for i in range(21)
-    ]
-    assert lacks == sorted(lacks, reverse=True)
-    assert lacks[-1] == pytest.approx(0.0, abs=1e-6)
-    for phase in (arrived, 0.6, 1.0):
-        assert rotation(unit, phase, body) == pytest.approx(from_euler(-0.5 - phase, 0.0, 0.0))
-
-
 def test_an_animation_that_starts_at_the_current_body_plays_the_file_from_the_first_frame(
     read: Callable[..., ProceduralAnimation], skeleton: Skeleton
 ) -> None:
@@ -65,16 +48,6 @@ def test_the_first_frame_shows_the_progress_since_the_start(
     body = Body(skeleton, {"r_elbow": from_euler(-0.5, 0.0, 0.0)})
     unit.start(body)
     assert rotation(unit, 0.013, body) == pytest.approx(from_euler(-0.513, 0.0, 0.0))
-
-
-def test_an_animation_that_joins_late_starts_from_the_current_body(
-    read: Callable[..., ProceduralAnimation], skeleton: Skeleton
-) -> None:
-    unit = ProceduralMotionUnit(read(RISING), {}, LayerKind.GESTURE)
-    body = Body(skeleton, {"r_elbow": from_euler(0.0, 0.0, 0.0)})
-    unit.start(body)
-    assert rotation(unit, 0.5, body) == pytest.approx(body.rotation("r_elbow"))
-    assert rotation(unit, 0.75, body) == pytest.approx(from_euler(-1.25, 0.0, 0.0))
 
 
 def test_the_root_starts_from_its_current_position(

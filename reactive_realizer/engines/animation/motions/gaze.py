@@ -12,10 +12,11 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Gaze, GazeShift, HeadDirectionShift
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.vocabulary import Influence
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import TRUNK
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.quaternion import Quat, angle, difference, slerp
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.easing import MINIMUM_JERK_PEAK, minimum_jerk, share
 from reactive_realizer.engines.animation.faults import GazeNear, GazeShort, WrongElement
@@ -28,7 +29,6 @@ from reactive_realizer.engines.animation.gaze.head_turn import (
     default_weights,
     head_turn_toward,
 )
-from reactive_realizer.engines.animation.inertialization import InertializedGoal
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, target_locator
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
@@ -76,6 +76,12 @@ _CHECK_FROM = 0.8
 The trunk may still turn before.
 """
 
+_TURN = 0.5
+"""Time in which a gaze that joins late turns to its target, s."""
+
+_FOLLOWED = 2.0
+"""A joint whose goal turns faster than this has jumped to a new goal, rad/s."""
+
 _TOLERANCE = math.radians(3.0)
 """Deviation that a person who is looked at hardly notices, rad.
 
@@ -122,9 +128,9 @@ class GazeMotionUnit(MotionUnit):
         self.preferred_duration = kind.duration
         self._ready = kind.key_positions.get("ready", 1.0)
         self._relax = kind.key_positions.get("relax", math.inf)
-        self._settling = InertializedGoal()
+        self.entrance = _TURN
         self._begin = rest.body
-        self._late = False
+        self._seen: tuple[GlobalTime, Mapping[str, Quat]] | None = None
         if expected is not None:
             self.shortest = self._shortest(expected)
 
@@ -161,14 +167,20 @@ class GazeMotionUnit(MotionUnit):
 
         A gaze that joins late moves at its own pace, whatever the phase.
         """
-        if self.joined is not None and not self._late:
-            self._late = True
-            self._settling.leave({joint: self._begin.rotation(joint) for joint in goal}, self.joined)
-        there = self._settling(goal, moment.time)
+        self.jumped = self._has_jumped(goal, moment.time)
+        self._seen = moment.time, goal
         done = minimum_jerk(share(moment.phase, 0.0, self._ready))
-        if done == 1.0 or self._late:
-            return there
-        return {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in there.items()}
+        if done == 1.0 or self.joined is not None:
+            return goal
+        return {joint: slerp(self._begin.rotation(joint), turn, done) for joint, turn in goal.items()}
+
+    def _has_jumped(self, goal: Mapping[str, Quat], now: GlobalTime) -> bool:
+        """Return whether the goal has turned faster since the last pose than a target that can be followed."""
+        if self._seen is None or self._seen[1] == goal:
+            return False
+        before, last = self._seen
+        ways = (angle(difference(last.get(joint, turn), turn)) for joint, turn in goal.items())
+        return now > before and max(ways, default=0.0) > _FOLLOWED * (now - before)
 
     def _turn(self, body: Body) -> HeadTurn:
         return head_turn_toward(body, self._rest.pose, self.point, self.parameters)

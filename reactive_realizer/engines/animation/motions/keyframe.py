@@ -11,7 +11,7 @@ from reactive_realizer.embodiment.feet import grounded
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.vector import add
 from reactive_realizer.engines.animation.faults import NoJoints
-from reactive_realizer.engines.animation.inertialization import InertializedStart
+from reactive_realizer.engines.animation.inertialization import InertializedStart, start_duration
 from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.capture import Capture
 from reactive_realizer.engines.animation.keyframe.clip import Clip
@@ -108,6 +108,7 @@ class KeyframeMotionUnit(MotionUnit):
         self.joints = frozenset(clip.joints)
         self.resources = resources_used(self.joints)
         self.preferred_duration = clip.duration
+        self.entrance = start_duration(clip.duration)
         self._clip = clip
         self.key_positions = self._keys()
         self.shortest = shortest_clip_parts(clip, rest, self.key_positions)

@@ -9,7 +9,7 @@ from reactive_realizer.bml.behaviors import MOST_REPETITIONS
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.engines.animation.inertialization import InertializedChange, InertializedStart
+from reactive_realizer.engines.animation.inertialization import InertializedStart, start_duration
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_parameters import check_ranges
 from reactive_realizer.engines.animation.motion_unit import (
@@ -122,10 +122,9 @@ class ProceduralMotionUnit(MotionUnit):
         # Timing is fixed when planned; a parameter that changes while it plays changes only the motion.
         timing = animation.timing(self.parameters)
         self.preferred_duration, self.stretch = timing.duration, timing.stretch
+        self.entrance = start_duration(timing.duration)
         self.key_positions = _with_repeats(timing, round(self.parameters.get(REPEATS, 1.0)))
         self._arrival: InertializedStart | None = None
-        self._change: InertializedChange | None = None
-        self._played: Mapping[str, float] = self.parameters
         if rest is not None:
             self.shortest = self._shortest(rest)
 
@@ -141,10 +140,7 @@ class ProceduralMotionUnit(MotionUnit):
 
     def start(self, body: Body) -> None:
         """Start from the current body, unless the motion is additive."""
-        self._played = dict(self.parameters)
-        if self.kind is LayerKind.ADDITIVE:
-            self._change = InertializedChange()
-        else:
+        if self.kind is not LayerKind.ADDITIVE:
             first = self._animation.sample(0.0, self.parameters, body)
             self._arrival = InertializedStart(body, first, self.preferred_duration)
 
@@ -153,17 +149,7 @@ class ProceduralMotionUnit(MotionUnit):
         posed = self._animation.sample(moment.phase, self.parameters, moment.body, moment.shown)
         if moment.shown is not None:
             self.fault = self.fault or posed.fault
-            posed = self._changed(posed, moment)
         return posed if self._arrival is None else self._arrival(posed, moment.phase)
-
-    def _changed(self, posed: MotionPose, moment: Moment) -> MotionPose:
-        if self._change is None:
-            return posed
-        if self._played != self.parameters:
-            before = self._animation.sample(moment.phase, self._played, moment.body)
-            self._change.change(before.rotations, posed.rotations, moment.time)
-            self._played = dict(self.parameters)
-        return posed._replace(rotations=self._change(posed.rotations, moment.time))
 
 
 def kind_of(animation: ProceduralAnimation) -> LayerKind:

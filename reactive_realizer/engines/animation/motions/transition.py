@@ -42,6 +42,7 @@ class TransitionMotionUnit(MotionUnit):
     fixed = frozenset({CLASS, JOINTS})
     preferred_duration = 0.6
     predictability = Predictability.ONCE_STARTED
+    entrance = 0.0  # it takes the velocities into account itself
 
     def __init__(self, joints: frozenset[str], curve: CurveKind) -> None:
         """Prepare a transition of some joints along curves of one kind."""
