@@ -94,4 +94,6 @@ async def _plan(pilot: RealizerPilot, inside: str, number: int) -> float:
         raise RuntimeError(f"{planned} of {number} behaviors were planned")
     pilot.block("clear", composition="REPLACE")
     await pilot.tick()
+    while pilot.realizer.scheduler.blocks.alive:  # a big block leaves no time in this tick
+        await pilot.tick()
     return taken

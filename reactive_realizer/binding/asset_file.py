@@ -14,6 +14,8 @@ from reactive_realizer.bml.names import is_sync_id
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 
+_BOOLEAN, _LIMITS = Boolean(), Limits()
+
 LARGEST = 8 * 1024 * 1024
 """Size limit of one file, bytes: several minutes of captured motion."""
 
@@ -68,7 +70,7 @@ def parse_boolean(name: str, text: str) -> bool:
         RealizerError: "not-a-flag": the value is neither true nor false.
     """
     try:
-        return Boolean().read(text, Limits())
+        return _BOOLEAN.read(text, _LIMITS)
     except RealizerError as problem:
         raise RealizerError(NotABoolean(name=name, value=text)) from problem
 

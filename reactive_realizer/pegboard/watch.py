@@ -22,9 +22,7 @@ class PegIndex(Generic[T]):
         if old.keys() == new.keys():
             return
         self._pegs[item] = new
-        for peg in new:
-            if peg in old:
-                continue
+        for peg in [peg for peg in new if peg not in old] if old else new:
             items = self._items.get(peg)
             if items is None:
                 self._items[peg] = {item: None}

@@ -45,7 +45,8 @@ class Derived(Cell[T]):
 
     def __init__(self, graph: Graph, name: str, dependencies: tuple[Cell[Any], ...], formula: Callable[..., T]) -> None:
         super().__init__(graph, name)
-        graph.settle()
+        if graph.stale_ranks:
+            graph.settle()
         self.formula = formula
         self._link(dependencies)
         self._value = self.compute()

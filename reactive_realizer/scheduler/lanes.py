@@ -41,9 +41,10 @@ class LaneTurns:
 
     def take(self, lane: Lane) -> None:
         """Note that a lane takes its turn."""
-        self.remove(lane)
         characters = self._characters.pop(lane.client, {})
-        self._characters[lane.client] = {**characters, lane.character: None}
+        characters.pop(lane.character, None)
+        characters[lane.character] = None
+        self._characters[lane.client] = characters
 
     def remove(self, lane: Lane) -> None:
         """Remove a lane."""

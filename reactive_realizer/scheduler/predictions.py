@@ -98,7 +98,8 @@ class Predictions:
 
 def _reported(unit: PlanUnit) -> dict[str, Time]:
     """The times of the points of a behavior that are reported."""
-    return {point.id: point.peg.value for point in unit.coming() if point.id not in unit.unreported}
+    unreported = unit.unreported
+    return {point.id: point.peg.value for point in unit.coming() if point.id not in unreported}
 
 
 def _cost(block: BMLBlock) -> int:
@@ -146,6 +147,10 @@ def _known(times: Mapping[str, Time], start: GlobalTime) -> dict[str, BlockTime]
 
 def _planned(block: BMLBlock, id_: str, times: Mapping[str, Time], start: GlobalTime) -> dict[str, Time]:
     """The times of a behavior, and the planned ones of points without a time."""
-    planned = {sync: block.planned_times.get(Point(id_, sync)) for sync in times}
-    after = {sync: None if time is None else GlobalTime(start + time) for sync, time in planned.items()}
-    return {sync: after[sync] if time is None else time for sync, time in times.items()}
+    planned = block.planned_times
+    return {
+        sync: GlobalTime(start + after)
+        if time is None and (after := planned.get(Point(id_, sync))) is not None
+        else time
+        for sync, time in times.items()
+    }

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.errors import Fault
@@ -27,7 +28,7 @@ class Loss:
     constraint: Tie | Precedence | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Solution:
     """A plan: a time for each point of the behaviors that are kept.
 
@@ -40,7 +41,7 @@ class Solution:
     times: Mapping[Point, float]
     losses: tuple[Loss, ...]
 
-    @property
+    @cached_property
     def behaviors(self) -> AbstractSet[str]:
         """Ids of the behaviors that are kept."""
         return {point.behavior for point in self.times}

@@ -138,8 +138,8 @@ class AnimationEngine(DefaultEngine):
         self._left_hands: list[FadeOut] = []
         # Bodies in postures that were cut since the last plan; the figure may still be there.
         self._interrupted_bodies: list[Body] = []
-        # Units of the block that is being planned; they are not in the plan yet.
-        self._drafts: list[AnimationUnit] = []
+        # Units of the block that is being planned, by behavior; they are not in the plan yet.
+        self._drafts: dict[str, AnimationUnit] = {}
         # Notes of new units, not reported yet.
         self._notes: list[Warn] = []
         self._history = MotionHistory(lambda: self._humanoid.body)
@@ -190,12 +190,11 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: there is no motion for it, or no such target.
         """
-        while self._drafts and not _precedes(self._drafts[-1], block, behavior):
-            self._drafts.pop()
+        while self._drafts and not _precedes(next(reversed(self._drafts.values())), block, behavior):
+            self._drafts.popitem()
         if not self._drafts:
             self._library.refresh()
-        unit = self._unit(block, behavior)
-        self._drafts.append(unit)
+        unit = self._drafts[behavior.id] = self._unit(block, behavior)
         return unit
 
     def add(self, unit: PlanUnit) -> None:
@@ -207,7 +206,9 @@ class AnimationEngine(DefaultEngine):
         super().add(unit)
 
     def _expected(self) -> BodyPosture:
-        planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
+        planned = (
+            unit.motion for unit in (*self.player.units, *self._drafts.values()) if isinstance(unit, AnimationUnit)
+        )
         return posture_after(self._rest.posture, planned)
 
     def _expected_place(self) -> Place:
@@ -216,7 +217,7 @@ class AnimationEngine(DefaultEngine):
         return places[-1] if places else self._humanoid.place
 
     def _possible_bodies(self) -> tuple[Body, ...]:
-        planned = (*self.player.playing, *self._drafts)
+        planned = (*self.player.playing, *self._drafts.values())
         return (
             *temporary_bodies(unit.motion for unit in planned if isinstance(unit, AnimationUnit)),
             *self._interrupted_bodies,
@@ -239,9 +240,9 @@ class AnimationEngine(DefaultEngine):
         start = unit.behavior.syncs.get("start")
         if start is None or start.block not in (None, unit.block.block) or start.sync not in ("relax", "end"):
             return None
-        drafts = (draft for draft in self._drafts if draft.behavior.id == start.behavior)
-        follows = start.offset < FADE_OUT
-        return next((draft for draft in drafts if follows and draft.resources & unit.resources), None)
+        draft = self._drafts.get(start.behavior or "")
+        follows = draft is not None and start.offset < FADE_OUT and draft.resources & unit.resources
+        return draft if follows else None
 
     def reset(self, time: GlobalTime) -> None:
         """Return to the initial posture and gaze."""

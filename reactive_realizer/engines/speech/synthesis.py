@@ -69,7 +69,10 @@ class Synthesis:
             spoken = self._tts.synthesize_markup(*text)
         else:
             spoken = self._tts.synthesize(text.text, text.marks, text.voice)
-        return spoken if isinstance(spoken, Utterance) else _parts(spoken)
+        if not isinstance(spoken, Utterance):
+            return _parts(spoken)
+        self.remember(speech, spoken)
+        return spoken
 
     def remember(self, speech: Speech, utterance: Utterance) -> None:
         """Remember the utterance of a speech if it is complete."""
@@ -79,6 +82,8 @@ class Synthesis:
 
     def left_out(self, speech: Speech, utterance: Utterance) -> tuple[str, ...]:
         """The markup of a speech that the voice does not follow, each kind once, as it is written."""
+        if not speech.markup:
+            return ()
         left_out = utterance.left_out if isinstance(self._tts, MarkupTTSBinding) else speech.markup
         return tuple(dict.fromkeys(each.written for each in left_out))
 

@@ -35,7 +35,11 @@ class Placement(NamedTuple):
 
     def moved(self, distance: float) -> "Placement":
         """The placement at a distance (s)."""
-        return self._replace(time=self.time + distance) if distance else self
+        return Placement(self.time + distance, self.known, self.cluster) if distance else self
+
+    def as_known(self) -> "Placement":
+        """The same placement, whose time counts as known."""
+        return Placement(self.time, known=True, cluster=self.cluster)
 
 
 class Squeeze(NamedTuple):
@@ -148,7 +152,8 @@ def sorted_items(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> lis
     """
     rigid = [item for item in problem.items if item.timing.rigid]
     grounded = [item for item in rigid if any(not isinstance(ties.find(node)[0], Point) for node in item.points)]
-    order = [item for item in problem.items if item not in grounded]
+    first = {item.behavior.id for item in grounded}
+    order = [item for item in problem.items if item.behavior.id not in first]
     flexible = {item.behavior.id for item in problem.items if not item.timing.rigid}
     pairs = [tie.nodes for tie in problem.ties]
     links = [(one, other) for one, other in pairs if isinstance(one, Point) and isinstance(other, Point)]
@@ -156,12 +161,16 @@ def sorted_items(problem: SchedulingProblem, ties: OffsetUnionFind[Node]) -> lis
     for one, other in links:
         if {one.behavior, other.behavior} <= flexible:
             groups.union(one.behavior, other.behavior)
-    for item in [item for item in order if item.timing.rigid]:
-        touched: defaultdict[str, set[str]] = defaultdict(set)
-        for here, there in [*links, *((other, one) for one, other in links)]:
-            if here.behavior == item.behavior.id and there.behavior in flexible:
-                touched[groups.find(there.behavior)[0]].add(here.sync)
-        cycles = {group for group, points in touched.items() if len(points) > 1}
+    touched: defaultdict[tuple[str, str], set[str]] = defaultdict(set)
+    for here, there in [*links, *((other, one) for one, other in links)]:
+        if here.behavior not in flexible and there.behavior in flexible:
+            touched[here.behavior, groups.find(there.behavior)[0]].add(here.sync)
+    in_cycles: defaultdict[str, set[str]] = defaultdict(set)
+    for (behavior, group), points in touched.items():
+        if len(points) > 1:
+            in_cycles[behavior].add(group)
+    for item in [item for item in order if item.behavior.id in in_cycles]:
+        cycles = in_cycles[item.behavior.id]
         ahead = order[: order.index(item)]
         place = next((i for i, each in enumerate(ahead) if groups.find(each.behavior.id)[0] in cycles), None)
         if place is not None:

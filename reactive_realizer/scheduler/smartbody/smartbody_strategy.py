@@ -127,7 +127,7 @@ class _Run:
             if isinstance(root, Point):
                 # The first one counts: a rigid behavior may have missed its place, which is no measure for others.
                 # It counts as known, so that what is also tied to known times has the time that it needs.
-                self._roots.setdefault(root, (placement._replace(known=True), distance))
+                self._roots.setdefault(root, (placement.as_known(), distance))
 
     def _known(self, item: Item, points: Sequence[Point]) -> dict[int, Placement]:
         """The points that are tied to placed or given ones, by index."""
@@ -272,7 +272,7 @@ class _Run:
         This does not concern clusters that are moved later, and starts that will follow from an unknown time; that of
         a free behavior does not.
         """
-        start = fill(item, known)[0]
+        start = known.get(0) or fill(item, known)[0]
         early = (start.known or item.timing.free) and start.time < -SHORTEST and self._is_fixed(known)
         return {0: self._start, **known} if early else known
 
