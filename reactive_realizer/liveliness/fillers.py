@@ -8,6 +8,7 @@ from random import Random
 from typing import Any, Final
 
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.file_cache import remembered
 
 _DEFAULT: Final = "en"
 """The language if the name of a voice is not the tag of a language with fillers."""
@@ -60,6 +61,7 @@ NO_FILLERS: Final = Fillers(0.0, (0.0, 0.0), 0, {})
 """Fillers for a realizer whose characters never hold the floor."""
 
 
+@remembered
 def read_fillers(path: Path) -> Fillers:
     """Read a file of fillers.
 

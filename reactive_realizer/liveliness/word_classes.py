@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Final, Self
 
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.file_cache import remembered
 from reactive_realizer.liveliness.movement import PARTS
 from reactive_realizer.liveliness.prosody import SpokenWord
 
@@ -119,6 +120,7 @@ NO_CLASSES: Final = WordClasses((), ())
 """Those of a language that is not known: every word is a content word."""
 
 
+@remembered
 def read_word_classes(path: Path) -> WordClasses:
     """Read a file of word classes.
 

@@ -11,6 +11,7 @@ from typing import Any
 from reactive_realizer.embodiment.turn_weights import turn_weights, turned_joint, weights_of_joint
 from reactive_realizer.engines.speech.lip_sync.shapes import VISEMES, Articulator, MouthShape
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.file_cache import remembered
 
 _LONGEST = 1.0
 """Upper limit of the time constant of an articulator, s."""
@@ -77,10 +78,7 @@ def read_binding_file(
         RealizerError: "bad-visemes".
         OSError: the file cannot be read.
     """
-    try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (ValueError, RecursionError) as problem:
-        raise RealizerError(BadVisemes(file=path.name, key="the file", reason=str(problem))) from problem
+    table = _read_table(path)
     reader = _Reader(path.name, morphs, joints, shared=shared)
     reader.know("the file", table, ("phonemes", "visemes", "articulators"))
     return BindingFile(
@@ -89,6 +87,14 @@ def read_binding_file(
         {viseme: reader.shape(viseme, own) for viseme, own in reader.section(table, "visemes", VISEMES)},
         reader.articulators(table),
     )
+
+
+@remembered
+def _read_table(path: Path) -> Mapping[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as problem:
+        raise RealizerError(BadVisemes(file=path.name, key="the file", reason=str(problem))) from problem
 
 
 class _Reader:
