@@ -1,5 +1,6 @@
 """Configuration and fixtures of all tests: the browser, and files of other projects beside the checkout."""
 
+import gc
 import os
 import shutil
 from pathlib import Path
@@ -48,6 +49,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             # What one test leaves open may be collected as garbage in another one, which is tried again then.
             item.add_marker(pytest.mark.flaky(reruns=1, only_rerun="unraisable exception|Exception ignored in"))
     config.hook.pytest_deselected(items=left_out)
+
+
+def pytest_collection_finish() -> None:
+    # Garbage is searched less often, and not among the modules and tests, which are far more than a test leaves.
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 10, 10)
 
 
 def _is_left_out(item: pytest.Item) -> bool:
