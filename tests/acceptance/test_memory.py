@@ -157,7 +157,7 @@ async def test_points_and_blocks_with_new_names_are_remembered_up_to_the_limits(
         await play(0)
         before = await play(15)
         more = await play(30) - before
-        assert set(more) <= {"_Template", "_TemplateKey"}  # limited by their size
+        assert set(more) <= {"_Template", "_TemplateKey", "Utterance", "Word", "_Text"}  # limited by their size
 
 
 async def test_fading_motions_are_not_kept_if_no_frames_are_made(pilot: RealizerPilot) -> None:
