@@ -13,7 +13,7 @@ from reactive_realizer.engine.effects import (
     Dropped,
     EndUnit,
     InterruptBlock,
-    MovePoint,
+    MovePoints,
     Play,
     Reached,
     ReportFall,
@@ -72,7 +72,7 @@ def check_play(play: Play) -> Play:
     for request in play.requests:
         expected(_REQUESTS, request)
         expected(PlanUnit, request.unit)
-        if isinstance(request, ActivateBlock | InterruptBlock | EndUnit | MovePoint | ReportFall):
+        if isinstance(request, ActivateBlock | InterruptBlock | EndUnit | MovePoints | ReportFall):
             number(request.time)
     return play
 

@@ -130,17 +130,17 @@ class EndUnit:
 
 
 @dataclass(frozen=True, slots=True)
-class MovePoint:
-    """Requests that a point ahead come at another time than its peg says, with what is tied to it.
+class MovePoints:
+    """Requests that points ahead come at other times than their pegs say, with what is tied to them.
 
     Attributes:
-        unit: of the point, which plays.
-        point: the sync point; if its time is unknown, it keeps the new one.
-        time: s, global.
+        unit: of the points; its block plays.
+        times: s, global, by sync id; a point whose time is unknown keeps the new one.
+        time: of the request, s.
     """
 
     unit: PlanUnit
-    point: SyncPoint
+    times: Mapping[str, GlobalTime]
     time: GlobalTime
 
 
@@ -183,7 +183,15 @@ class ParameterUser(PlanUnit, ABC):
 
 
 Request = (
-    ActivateBlock | InterruptBlock | BindParameter | SetParameter | FollowCell | EndUnit | MovePoint | Warn | ReportFall
+    ActivateBlock
+    | InterruptBlock
+    | BindParameter
+    | SetParameter
+    | FollowCell
+    | EndUnit
+    | MovePoints
+    | Warn
+    | ReportFall
 )
 """Requests of an engine to the scheduler, carried out in the same tick."""
 

@@ -37,7 +37,7 @@ class _Announced:
 
     def ended(self, time: GlobalTime) -> bool:
         """Whether it has ended by itself at a time."""
-        return self.start is not None and self.start + self.part.sound.duration <= time
+        return self.start is not None and self.start + self.part.end - self.part.begin <= time
 
 
 class SoundAnnouncer:
@@ -69,7 +69,8 @@ class SoundAnnouncer:
                 del self._announced[unit]
                 out += _silences(unit, announced, now)
             elif unit.live:
-                out += [change for each in announced for change in _differences(unit, each, now)]
+                for each, part in zip(announced, unit.sounds, strict=False):
+                    out += [*_differences(unit, each, now), *_cut_off(each, part)]
                 out += [change for each in announced for change in self._restated(unit, each)]
             else:
                 del self._announced[unit], self._sources[unit]
@@ -113,6 +114,13 @@ def _differences(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> Ite
     if unit.gain != announced.gain and announced.gain_tick != now:
         announced.gain, announced.gain_tick = unit.gain, now
         yield AudioGain(announced.clip, unit.gain, now)
+
+
+def _cut_off(announced: _Announced, part: SoundPart) -> Iterator[AudioStop]:
+    """The stop of a sound of which another one takes the place, when it does."""
+    if part.until != announced.part.until and announced.start is not None:
+        announced.part = part
+        yield AudioStop(announced.clip, GlobalTime(announced.start + part.until - part.begin), _FADE)
 
 
 def _silences(unit: SoundUnit, announced: Sequence[_Announced], now: GlobalTime) -> Iterator[AudioChange]:

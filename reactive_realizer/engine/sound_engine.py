@@ -63,9 +63,10 @@ class SoundEngine(DefaultEngine):
         found = self._announcer.find(heard.id)
         if found is None or found[0].hearing is None:
             return None
-        unit, (begin, sound) = found
+        unit, part = found
+        sound = part.sound
         if not 0.0 <= heard.position <= sound.duration:
             raise RealizerError(OutsideSound(position=heard.position, id=heard.id, duration=sound.duration))
-        in_unit = replace(heard, position=begin + heard.position)
+        in_unit = replace(heard, position=part.begin + heard.position)
         found[0].hearing.check(in_unit)
         return unit, found[0].hearing, in_unit

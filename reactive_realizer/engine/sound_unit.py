@@ -1,5 +1,6 @@
 """The plan unit of a behavior that is heard."""
 
+from math import inf
 from typing import ClassVar, Final, NamedTuple, Protocol, runtime_checkable
 
 from reactive_realizer.bml.behavior import Behavior
@@ -25,10 +26,17 @@ class SoundPart(NamedTuple):
     Attributes:
         begin: s after the start of the behavior.
         sound: what is heard.
+        until: when another sound takes its place, s after the start of the behavior.
     """
 
     begin: float
     sound: Sound
+    until: float = inf
+
+    @property
+    def end(self) -> float:
+        """When it is over, s after the start of the behavior."""
+        return min(self.begin + self.sound.duration, self.until)
 
 
 @runtime_checkable

@@ -9,6 +9,7 @@ from typing import Final, Protocol, runtime_checkable
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.clock.units import RESOLUTION
+from reactive_realizer.planunit.parameter import Range
 
 _BETWEEN_SPACES: Final = re.compile(r"[^\s\u2013\u2014]+")
 """The text between white space, en dashes and em dashes."""
@@ -16,6 +17,11 @@ _PUNCTUATION: Final = ".,;:!?\u2026\"'()[]{}\u00ab\u00bb\u201c\u201d\u201e\u2018
 """Characters around a word that are not part of it: stops, quotation marks, brackets."""
 _CLAUSE_ENDS: Final = frozenset(".,;:!?\u2026\u2013\u2014\n")
 """Characters between two words that end a clause: stops, dashes and line breaks."""
+STRETCH: Final = (0.8, 1.3)
+"""How much shorter and longer speech may become and still sound natural, as factors."""
+RATE_RANGE: Final = Range(0.5, 2.0)
+PITCH_RANGE: Final = Range(0.5, 2.0)
+"""How fast and how high speech with sound can be made while it plays, as factors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,11 +154,29 @@ class VoiceCapabilities:
         sound: whether its utterances have audio.
         languages: language tags in lower case, such as ``en-us``, sorted; none if it is not bound to any.
         markup: the kinds that it follows, at least some values of each; none if it follows no markup.
+        stretch: how much shorter and longer the parts of its utterances may become, as in these (`Utterance.stretch`).
     """
 
     sound: bool
     languages: tuple[str, ...] = ()
     markup: frozenset[MarkupKind] = frozenset()
+    stretch: tuple[float, float] | None = None
+
+    @property
+    def stretch_range(self) -> Range | None:
+        """How much shorter and longer its speeches become where constraints ask for it; None if they do not."""
+        stretch = self.stretch or (STRETCH if self.sound else None)
+        return None if stretch is None else Range(*stretch)
+
+    @property
+    def rate_range(self) -> Range | None:
+        """The values of the parameter ``rate``; None if its speeches have none."""
+        return RATE_RANGE if self.sound else None
+
+    @property
+    def pitch_range(self) -> Range | None:
+        """The values of the parameter ``pitch``; None if its speeches have none."""
+        return PITCH_RANGE if self.sound else None
 
 
 class TTSBinding(Protocol):

@@ -192,7 +192,7 @@ def _rises(phrase: Phrase, rate: int, sounds: Iterable[SoundPart]) -> list[float
     if phrase.end - phrase.start > _LONGEST:
         return [None] * len(phrase.words)
     heard = np.zeros(max(0, int((phrase.end - phrase.start) * rate)), "<i2")
-    for begin, sound in sounds:
+    for begin, sound, _ in sounds:
         own = np.frombuffer(sound.pcm(phrase.start - begin, phrase.end - begin), "<i2")
         first = max(0, int((begin - phrase.start) * rate))
         heard[first : first + len(own)] = own[: max(0, len(heard) - first)]

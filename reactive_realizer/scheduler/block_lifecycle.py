@@ -10,7 +10,7 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import TimeCell
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_planner import BlockPlanner
@@ -190,18 +190,22 @@ class BlockLifecycle:
         """Move the points ahead of a playing behavior that has drifted, with what is tied to them."""
         self._units.shift(unit, seconds)
 
-    def move_point(self, unit: PlanUnit, point: SyncPoint, time: GlobalTime) -> None:
-        """Have a point ahead of a playing behavior come at a time, with what is tied to it."""
-        self._units.move(unit, point, time)
+    def move_points(self, unit: PlanUnit, times: Mapping[str, GlobalTime]) -> None:
+        """Have points ahead of a behavior of a playing block come at some times, with what is tied to them."""
+        self._units.move(unit, times)
 
     def retime_behavior(self, unit: PlanUnit, change: Callable[[], None], now: GlobalTime) -> None:
-        """Have a rigid behavior change its timing; its points ahead move, or its block is planned again if it waits."""
+        """Have a behavior change its timing; its points ahead move, or its block is planned again if it waits.
+
+        Once it has begun, the points of one that is not rigid are moved when it asks for it.
+        """
         block, before = self._blocks.get(unit.block), unit.timing
         change()
         if block is None or not unit.live or unit.timing.offsets == before.offsets:
             return
         if block.state.plays:
-            self._units.retime(unit, before)
+            if unit.timing.rigid or not unit.begun:
+                self._units.retime(unit, before)
         else:
             self._plan_again(block, f"new timing of {unit.behavior.id}", now)
 

@@ -9,7 +9,7 @@ from reactive_realizer.engine.effects import (
     EndUnit,
     FollowCell,
     InterruptBlock,
-    MovePoint,
+    MovePoints,
     ReportFall,
     Request,
     SetParameter,
@@ -23,7 +23,7 @@ from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks, NoSuchBlock
 
-_Timed = ActivateBlock | InterruptBlock | BindParameter | EndUnit | MovePoint
+_Timed = ActivateBlock | InterruptBlock | BindParameter | EndUnit | MovePoints
 
 
 class NoSuchBehavior(TargetFault):
@@ -116,8 +116,8 @@ class EngineRequests:
                     self._lifecycle.drop_behavior(unit, problem.fault, now)
             case EndUnit(unit, time):
                 self._lifecycle.finish_behavior(unit, time)
-            case MovePoint(unit, point, time):
-                self._lifecycle.move_point(unit, point, time)
+            case MovePoints(unit, times):
+                self._lifecycle.move_points(unit, times)
 
     def _reject(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         """Warn of a request that cannot be carried out; its behavior is dropped unless it plays."""

@@ -1,7 +1,7 @@
 """The life of single behaviors: they reach their sync points, and finish, are cut or are dropped."""
 
 import logging
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -141,16 +141,21 @@ class UnitLifecycle:
                 self.schedule_cut(unit, cut._replace(time=time, asked=asked))
         unit.wake()
 
-    def move(self, unit: PlanUnit, point: SyncPoint, time: GlobalTime) -> None:
-        """Have a point ahead of a playing behavior come at a time; what is tied to it follows."""
-        peg = point.peg
-        if unit.state is not UnitState.IN_EXEC or point.fired or peg.pinned:
+    def move(self, unit: PlanUnit, times: Mapping[str, GlobalTime]) -> None:
+        """Have points ahead of a behavior of a playing block come at some times; what is tied to them follows."""
+        block = self._blocks.get(unit.block)
+        if block is None or not block.state.plays or not unit.live:
             return
-        with self._board.graph.transaction(f"sound of {unit.key(point.id)}"):
-            if peg.value is None:
-                peg.pin(time)
+        pegs = {point.id: point.peg for point in unit.ahead() if not point.peg.pinned}
+        with self._board.graph.transaction(f"sound of {unit.behavior.id}"):
+            if unit.timing.rigid:
+                later = {sync: times[sync] - peg.value for sync, peg in pegs.items() if peg.value is not None}
+                self._shift_from(block, unit, later)
             else:
-                peg.shift(time - peg.value)
+                for sync, peg in sorted(pegs.items(), key=lambda each: each[1].rank):
+                    if sync in times:
+                        self._board.graph.settle()
+                        _put(peg, times[sync])
         unit.wake()
 
     def retime(self, unit: PlanUnit, before: Timing) -> None:
@@ -164,13 +169,17 @@ class UnitLifecycle:
         if block is None:
             return
         offsets = zip(unit.timing.points, unit.timing.offsets, before.offsets, strict=True)
-        later = {sync: after - earlier for sync, after, earlier in offsets}
-        kept = later[unit.points[0].id if unit.begun else fixed_point(block, unit)]
         with self._board.graph.transaction(f"new timing of {unit.behavior.id}"):
-            shift_ahead(block, unit, {point.id: later[point.id] - kept for point in unit.ahead()}, self._board)
+            self._shift_from(block, unit, {sync: after - earlier for sync, after, earlier in offsets})
             if (cut := self._scheduled_cuts.get(unit)) is not None:
                 self.schedule_cut(unit, cut._replace(time=unit.gentle_end(cut.asked, cut.speech)))
         unit.wake()
+
+    def _shift_from(self, block: BMLBlock, unit: PlanUnit, later: Mapping[str, float]) -> None:
+        """Move the points ahead of a rigid behavior by some seconds; before it begins, its fixed point stays."""
+        kept = 0.0 if unit.begun else later[fixed_point(block, unit)]
+        ahead = {point.id: later[point.id] - kept for point in unit.ahead() if point.id in later}
+        shift_ahead(block, unit, ahead, self._board)
 
     def cut_scheduled(self, unit: PlanUnit) -> bool:
         """Whether a behavior has a cut scheduled."""
@@ -328,6 +337,14 @@ class UnitLifecycle:
         self._routing.unassign(unit)
         self.sync_points_reached(reached)
         return cut
+
+
+def _put(peg: TimePeg, time: GlobalTime) -> None:
+    """Within a transaction, have a peg come at a time, and follow from there on what it depends on."""
+    if peg.value is None:
+        peg.pin(time)
+    else:
+        peg.shift(time - peg.value)
 
 
 def _fire(unit: PlanUnit, due: Sequence[DuePoint], now: GlobalTime) -> list[Reached]:

@@ -8,6 +8,7 @@ from reactive_realizer.assembly.scene import Scene
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.engine.lexicon import lexicon_of
+from reactive_realizer.engine.sound_unit import VOLUME_RANGE
 from reactive_realizer.engine.tts import VoiceCapabilities
 from reactive_realizer.pegboard.anticipator import Anticipator
 from reactive_realizer.planunit.parameter import Range
@@ -47,7 +48,7 @@ def _element(
         "realized": element.behavior in realized,
         "attributes": [attribute.name for attribute in element.attributes],
         "syncPoints": element.sync_points,
-        "parameters": {name: range_._asdict() for name, range_ in parameters.items()},
+        "parameters": {name: _range(range_) for name, range_ in parameters.items()},
     }
 
 
@@ -57,7 +58,15 @@ def _tts(capabilities: VoiceCapabilities) -> dict[str, Any]:
         "sound": capabilities.sound,
         "languages": capabilities.languages,
         "markup": sorted(capabilities.markup),
+        "stretch": _range(capabilities.stretch_range),
+        "volume": _range(VOLUME_RANGE),
+        "rate": _range(capabilities.rate_range),
+        "pitch": _range(capabilities.pitch_range),
     }
+
+
+def _range(values: Range | None) -> dict[str, float] | None:
+    return None if values is None else values._asdict()
 
 
 def _anticipator(scene: Scene, anticipator: Anticipator) -> dict[str, Any]:

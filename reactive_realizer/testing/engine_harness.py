@@ -29,7 +29,7 @@ from reactive_realizer.engine.effects import (
     EndUnit,
     FollowCell,
     InterruptBlock,
-    MovePoint,
+    MovePoints,
     Output,
     Play,
     ReportFall,
@@ -329,9 +329,10 @@ class EngineHarness:
                 with self._graph.transaction("end"):
                     unit.interrupt(time)
                 self.engine.remove(unit)
-            case MovePoint(point=point, time=time):
+            case MovePoints(unit=unit, times=times):
                 with self._graph.transaction("move"):
-                    point.peg.pin(time)
+                    for sync, time in times.items():
+                        unit.point(sync).peg.pin(time)
             case ActivateBlock() | InterruptBlock() | Warn() | ReportFall():
                 pass  # there are no other blocks, and no client
 

@@ -177,7 +177,9 @@ class TTSContract(ABC):
 
     def test_it_does_what_its_capabilities_say_and_nothing_else(self, speaker: Speaker) -> None:
         capabilities = speaker.capabilities()
-        assert bool(speaker.say("one two").audio) == capabilities.sound
+        spoken = speaker.say("one two")
+        assert bool(spoken.audio) == capabilities.sound
+        assert spoken.stretch == capabilities.stretch
         languages = capabilities.languages
         assert languages == tuple(sorted({language.lower() for language in languages}))
         known = {MarkupKind.VOICE: speaker.voices(), MarkupKind.LANGUAGE: languages}

@@ -1,5 +1,8 @@
 """A fake voice whose words are tones with silence between them, so that a test can find them in the sound."""
 
+import asyncio
+from collections.abc import AsyncIterator
+from dataclasses import replace
 from itertools import accumulate
 from pathlib import Path
 
@@ -21,6 +24,8 @@ PAUSE = 0.3
 PITCH = 150.0
 """Frequency of the tones, Hz."""
 _QUIET = 200.0
+FASTER = 0.9
+"""The expected duration of what is not made, as a factor."""
 
 
 class SoundingVoice:
@@ -37,6 +42,56 @@ class SoundingVoice:
         spoken = Utterance(text, begins[-1], words, {}, tuple(sounds), audio, _RATE)
         times = {name: spoken.time_of_character(index) for name, index in marks}
         return Utterance(text, begins[-1], words, times, tuple(sounds), audio, _RATE)
+
+
+class GrowingVoice(SoundingVoice):
+    """Speaks as `SoundingVoice`, in parts, when a test lets it; what is not made is estimated to be faster.
+
+    Args:
+        cuts: where parts end, s from the start; the last one ends with the utterance.
+    """
+
+    def __init__(self, *cuts: float) -> None:
+        self._cuts = cuts
+        self._let = len(cuts) + 1
+        self._more = asyncio.Event()
+
+    def hold(self) -> None:
+        """Make only the first part, until `let`."""
+        self._let = 1
+
+    def let(self, parts: int | None = None) -> None:
+        """Make some parts in all, by default all of them."""
+        self._let = len(self._cuts) + 1 if parts is None else parts
+        self._more.set()
+        self._more = asyncio.Event()
+
+    async def stream(
+        self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None
+    ) -> AsyncIterator[Utterance]:
+        """Speaks a text; see `TTSBinding.synthesize`."""
+        whole = self.synthesize(text, marks, voice)
+        for index, made in enumerate((*self._cuts, whole.duration)):
+            while index >= self._let:
+                await self._more.wait()
+            yield _made(whole, made)
+
+
+def _made(whole: Utterance, made: float) -> Utterance:
+    """An utterance of which a part is made, and the rest is expected to be faster."""
+
+    def time(at: float) -> float:
+        return at if at <= made else made + FASTER * (at - made)
+
+    return replace(
+        whole,
+        duration=time(whole.duration),
+        words=tuple(replace(each, start=time(each.start)) for each in whole.words),
+        marks={name: time(at) for name, at in whole.marks.items()},
+        phonemes=tuple(replace(each, start=time(each.start)) for each in whole.phonemes),
+        audio=whole.audio[: 2 * round(made * _RATE)],
+        made=made,
+    )
 
 
 def onsets(changes: list[AudioChange], end: float, path: Path) -> list[float]:

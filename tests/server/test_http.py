@@ -103,14 +103,19 @@ async def test_the_capabilities_list_elements_and_lexemes(on_air: Open) -> None:
             capabilities = await answer.json()
         assert "stroke" in capabilities["elements"]["gesture"]["syncPoints"]
         assert "repetition" in capabilities["elements"]["head"]["attributes"]
-        assert capabilities["elements"]["speech"]["parameters"] == {"volume": {"low": 0.0, "high": 100.0}}
+        factor, volume = {"low": 0.5, "high": 2.0}, {"low": 0.0, "high": 100.0}
+        assert capabilities["elements"]["speech"]["parameters"] == {"volume": volume, "rate": factor, "pitch": factor}
         assert capabilities["elements"]["wait"]["parameters"] == {}
         parameters = capabilities["parameters"]
-        assert parameters.items() >= {"gesture": ["amount"], "head": ["amount"], "speech": ["volume"]}.items()
+        assert (
+            parameters.items()
+            >= {"gesture": ["amount"], "head": ["amount"], "speech": ["pitch", "rate", "volume"]}.items()
+        )
         lexemes = {"gesture": "BEAT", "head": "TOSS", "faceLexeme": "RAISE_BROWS", "pose": "ARMS_CROSSED"}
         assert all(word in capabilities["lexemes"][element] for element, word in lexemes.items())
         assert "alice" in capabilities["targets"]
-        assert capabilities["tts"] == {"sound": False, "languages": [], "markup": []}
+        silent = {"stretch": None, "volume": volume, "rate": None, "pitch": None}
+        assert capabilities["tts"] == {"sound": False, "languages": [], "markup": [], **silent}
 
 
 async def test_the_capabilities_list_anticipators_and_their_events(on_air: Open) -> None:

@@ -100,6 +100,12 @@ class Learned(Boastful):
     claims = VoiceCapabilities(sound=False, markup=frozenset({MarkupKind.RATE}))
 
 
+class Rigid(Boastful):
+    """Says that it can be stretched."""
+
+    claims = VoiceCapabilities(sound=False, stretch=(0.5, 2.0))
+
+
 class Unsorted(TextVoice):
     """Lists its voices in arbitrary order."""
 
@@ -135,6 +141,7 @@ class Mute(TextVoice):
         (Fickle, "test_what_is_made_stays_and_the_last_part_completes_the_utterance"),
         (Boastful, "test_it_does_what_its_capabilities_say_and_nothing_else"),
         (Learned, "test_it_does_what_its_capabilities_say_and_nothing_else"),
+        (Rigid, "test_it_does_what_its_capabilities_say_and_nothing_else"),
         (Unsorted, "test_the_listed_voices_are_sorted_and_can_speak"),
         (Mute, "test_an_unknown_voice_raises_an_error_and_does_not_affect_the_next_text"),
     ],

@@ -32,7 +32,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import MovePoint, ReportFall, Warn
+from reactive_realizer.engine.effects import MovePoints, ReportFall, Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
@@ -307,7 +307,7 @@ class AnimationEngine(DefaultEngine):
         """Whether the figure is simulated, or walks: what happens then depends on what happened before."""
         return self._physical_figure.active or bool(self._controlling()) or self._walk.active or bool(self._walks())
 
-    def requests(self, tick: Tick) -> tuple[MovePoint, ...]:
+    def requests(self, tick: Tick) -> tuple[MovePoints, ...]:
         """Return the moves of the ends of locomotion: the figure arrives earlier or later than expected."""
         return tuple(move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
 

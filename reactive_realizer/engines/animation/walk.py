@@ -6,7 +6,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Transform
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.pose import Layer, LayerKind, turned_further
-from reactive_realizer.engine.effects import MovePoint
+from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engines.animation.easing import smoothstep
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionUnit
 from reactive_realizer.engines.animation.walking.carriage import Carriage, limbs, lowering
@@ -43,7 +43,7 @@ class Walk:
         """How much lower the pelvis would be of a figure that shifts its weight as little, m."""
         return _UNREST * smoothstep(self._walking)
 
-    def moves(self, unit: LocomotionUnit, now: GlobalTime) -> Iterator[MovePoint]:
+    def moves(self, unit: LocomotionUnit, now: GlobalTime) -> Iterator[MovePoints]:
         """Yield the moves of the end of a locomotion."""
         yield from unit.look(now, self._humanoid.place, self._walker.course.speed)
 

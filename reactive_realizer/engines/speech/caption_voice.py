@@ -25,8 +25,8 @@ class CaptionVoice:
         return ()
 
     async def capabilities(self) -> VoiceCapabilities:
-        """Silence, in any language, without markup."""
-        return VoiceCapabilities(sound=False)
+        """Silence, in any language, without markup, that can be stretched."""
+        return VoiceCapabilities(sound=False, stretch=STRETCH)
 
     def synthesize(self, text: str, marks: tuple[tuple[str, int], ...], voice: str | None = None) -> Utterance:
         """The utterance of a plain text; see `TTSBinding.synthesize`. The voice is ignored."""

@@ -46,6 +46,13 @@ class Course(NamedTuple):
         times, positions = ([each[k] for k in kept] for each in self)
         return Course([*times, time], [*positions, self.position(time)])
 
+    def held(self, until: float) -> "Course":
+        """This course, which stays where it ends until a time, s."""
+        waits = len(self.times) > 1 and self.positions[-1] - self.positions[-2] < RESOLUTION
+        times = self.times[:-1] if waits else self.times
+        positions = self.positions[:-1] if waits else self.positions
+        return Course([*times, until], [*positions, positions[-1]])
+
     def then(self, other: "Course") -> "Course":
         """This course, and another one that begins where it ends."""
         return Course([*self.times, *other.times[1:]], [*self.positions, *other.positions[1:]])

@@ -1,6 +1,6 @@
 """The engine of ``speech`` (thesis 8.10)."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from types import MappingProxyType
 
 from reactive_realizer.bml.behavior import Behavior
@@ -22,7 +22,7 @@ from reactive_realizer.engine.effects import ReportFall, Request, Warn
 from reactive_realizer.engine.engine import SlowWork
 from reactive_realizer.engine.sound_engine import SoundEngine
 from reactive_realizer.engine.sound_unit import VOLUME_RANGE
-from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engine.tts import PITCH_RANGE, RATE_RANGE, Utterance
 from reactive_realizer.engines.speech.elastic_speech import ElasticSpeech
 from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
@@ -39,7 +39,7 @@ from reactive_realizer.engines.speech.speech_unit import (
 from reactive_realizer.engines.speech.streamed.streamed_speech import spoken_stream
 from reactive_realizer.engines.speech.synthesis import Synthesis, check_words
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 
 
 class SpeechEngine(SoundEngine):
@@ -53,7 +53,8 @@ class SpeechEngine(SoundEngine):
         self._synthesis = Synthesis(context.tts, context.voice)
         self._liveliness = context.liveliness
         live = {} if context.liveliness is None else {LIVELINESS[1]: LIVELINESS_RANGE}
-        self.parameters = MappingProxyType({Speech: {"volume": VOLUME_RANGE, **live}})
+        ranges = {"volume": VOLUME_RANGE, "rate": RATE_RANGE, "pitch": PITCH_RANGE, **live}
+        self.parameters = MappingProxyType({Speech: ranges})
         self._graph = context.graph
         self._recordings = Recordings(context.asset, context.limits.sound_seconds)
         self._streams = context.speech_streams
@@ -144,15 +145,18 @@ class SpeechEngine(SoundEngine):
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
         """The changes of sounds since the last call, with those of stretched speeches that will be heard soon."""
-        for unit in self.player.units:
-            if isinstance(unit, SpeechUnit) and unit.loose:
-                unit.make_sound(tick.time)
+        for unit in self._speeches():
+            unit.make_sound(tick.time)
         return super().audio(tick)
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
         """The requests that points come when their sounds do."""
-        playing = (unit for unit in self.player.playing if isinstance(unit, SpeechUnit))
-        return tuple(each for unit in playing for each in unit.misplaced(tick.time))
+        requests: list[Request] = []
+        for unit in self._speeches():
+            unit.steer(tick.time)
+            if unit.state in (UnitState.LURKING, UnitState.IN_EXEC) and (request := unit.misplaced(tick.time)):
+                requests.append(request)
+        return tuple(requests)
 
     def mouth(self, time: GlobalTime) -> Mapping[str, float] | None:
         """Weights of morph targets for the present speech, None without one; an interrupted speech ends at once."""
@@ -161,6 +165,9 @@ class SpeechEngine(SoundEngine):
                 utterance, position = unit.reading(time)
                 return self._track_of(utterance).weights(position)
         return None
+
+    def _speeches(self) -> Iterator[SpeechUnit]:
+        return (unit for unit in self.player.units if isinstance(unit, SpeechUnit))
 
     def _track_of(self, utterance: Utterance) -> LipSyncTrack:
         if self._track is None or self._track.utterance is not utterance:

@@ -10,11 +10,11 @@ from reactive_realizer.bml.behaviors import FILLER, LIVELINESS, RIGID, WORDS, Sp
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.audio import Caption
-from reactive_realizer.engine.effects import MovePoint
+from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engine.sound_unit import SoundUnit
-from reactive_realizer.engine.tts import Utterance
+from reactive_realizer.engine.tts import PITCH_RANGE, RATE_RANGE, Utterance
 from reactive_realizer.engines.speech.spoken_utterance import SpokenUtterance
-from reactive_realizer.engines.speech.stretched_utterance import StretchedUtterance, pace_of
+from reactive_realizer.engines.speech.stretched_utterance import StretchedUtterance, border_after, pace_of
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -49,8 +49,9 @@ class BadLiveliness(CreationFault):
 class SpeechUnit(SoundUnit):
     """An utterance. A character speaks one at a time.
 
-    It may begin when its first part is made. It waits for what is not made in time. Its timing is rigid until it is
-    loosened: from then on, its sound follows its sync points within limits, until it is cut.
+    It may begin when its first part is made. It waits for what is not made in time. It is heard as the voice speaks it
+    until its points have to be met by stretching, or its rate or pitch is changed: from then on, its sound is made
+    again, shortly before it is heard, until it is cut.
 
     Attributes:
         speech: the behavior, in the form that is spoken.
@@ -85,25 +86,35 @@ class SpeechUnit(SoundUnit):
         self._words = {} if liveliness is None and not wants_words(behavior) else _word_points(behavior, utterance)
         self._spoken = SpokenUtterance(utterance)
         self._stretched: StretchedUtterance | None = None
+        self._elastic = 0
+        """The number of phases that may be stretched to meet constraints."""
         self._follows = True
         self._asked: dict[str, tuple[Time, GlobalTime]] = {}
         self._may_loosen = not is_rigid(behavior)
-        offsets = sorted(self._offsets().items(), key=lambda each: each[1])
+        offsets = sorted(self._offsets(utterance).items(), key=lambda each: each[1])
         timing = self._timed({"start": 0.0, **dict(offsets), "end": utterance.duration})
         super().__init__(block, behavior, timing, self._spoken.sounds, graph, frozenset({VOICE}))
         self.unreported = frozenset() if wants_words(behavior) else frozenset(self._words)
         if liveliness is not None:
             name = LIVELINESS[1]
             self.parameters[name] = Parameter(graph, str(self.key(name)), liveliness, LIVELINESS_RANGE)
+        self._rate = Parameter(graph, str(self.key("rate")), 1.0, RATE_RANGE)
+        self._pitch = Parameter(graph, str(self.key("pitch")), 1.0, PITCH_RANGE)
+        if utterance.audio:
+            self.parameters |= {"rate": self._rate, "pitch": self._pitch}
 
     @property
     def utterance(self) -> Utterance:
         """Words and phonemes as far as they are known, with their times; those ahead of what is made may change."""
-        return self._spoken.timed if self._stretched is None else self._stretched.timed
+        return self._heard_as.timed
+
+    @property
+    def _heard_as(self) -> SpokenUtterance | StretchedUtterance:
+        return self._spoken if self._stretched is None else self._stretched
 
     @property
     def loose(self) -> bool:
-        """Whether its sound follows its sync points."""
+        """Whether its sound is made shortly before it is heard, as its points, its rate and its pitch say."""
         return self._stretched is not None
 
     @property
@@ -112,71 +123,80 @@ class SpeechUnit(SoundUnit):
         return self.utterance.duration if self.loose else super().duration
 
     def loose_timing(self, named: Container[str]) -> Timing | None:
-        """The timing with the shortest and longest durations of parts; None if it has no sound, or only some of it.
+        """The timing with the shortest and longest durations of parts; None if it has no sound.
 
         After the last point that a constraint names, it is spoken at its own pace.
         """
-        utterance, points = self._spoken.timed, self.timing.points
-        if not (self._may_loosen and utterance.audio and utterance.complete):
+        if not (self._may_loosen and self.utterance.audio):
             return None
-        pace = pace_of(utterance)
-        phases = list(self.timing.phases)
-        last = max((k for k, sync in enumerate(points) if sync in named), default=0)
-        for k, (begin, end) in enumerate(pairwise(self.timing.offsets[: last + 1])):
-            phase = phases[k]
-            pauses = sum(1 for each in pace.pauses if begin < each <= end)
-            longest = pace.most * phase.duration + _LONGEST_PAUSE * pauses
-            elastic = Phase(phase.duration, maximum=longest, shortest=pace.least * phase.duration)
-            phases[k] = elastic if phase.duration else phase
-        return Timing(points, tuple(phases))
+        return self._loosened(max((k for k, sync in enumerate(self.timing.points) if sync in named), default=0))
 
     def loosen(self, timing: Timing) -> None:
         """Take a `loose_timing`, and make the sound again, as its sync points ask for."""
-        self._stretched = StretchedUtterance(self._spoken.timed)
-        self.timing, self.sounds = timing, self._stretched.sounds
-        self.shortest = [phase.shortest for phase in timing.phases]
+        elastic = (k for k, phase in enumerate(timing.phases, 1) if phase.kind is not PhaseKind.RIGID)
+        self._elastic = max(elastic, default=0)
+        self._take_timing(timing)
+        self._stretched = StretchedUtterance(self._spoken.utterance)
+        self.sounds = self._stretched.sounds
+
+    def steer(self, now: GlobalTime) -> None:
+        """Have what is not made follow its sync points, its rate and its pitch."""
+        changed = (self._rate.value, self._pitch.value) != (1.0, 1.0)
+        if not (self.live and self._follows and (self.loose or changed)):
+            return
+        if self._stretched is None:
+            self._stretched = self._taken_over(now)
+            self.sounds = self._stretched.sounds
+        self._stretched.pitch = self._pitch.value
+        self._follow(self._stretched)
 
     def make_sound(self, now: GlobalTime) -> None:
-        """Make the sound of a stretched speech that will be heard soon."""
-        if self._stretched is None or (origin := self.origin) is None:
+        """Make the sound that will be heard soon, if it is not heard as the voice speaks it."""
+        self.steer(now)
+        if self._stretched is None:
             return
-        if self._follows:
-            self._stretched.follow(self._goals(origin))
-        self._stretched.make(now - origin + _AHEAD)
+        if (origin := self.origin) is not None:
+            self._stretched.make(now - origin + _AHEAD)
+        elif self.timing.rigid:
+            self._stretched.make(_AHEAD)
 
     def earliest(self, now: GlobalTime) -> Iterator[tuple[SyncPoint, GlobalTime]]:
         """As `PlanUnit.earliest`: of a stretched speech, what is made stays, and the rest can be hurried."""
-        if self._stretched is None or self.hearing is None:
+        if self._stretched is None or self.hearing is None or self.timing.rigid:
             yield from super().earliest(now)
         elif self._follows:
-            for point, position in self._positions_ahead():
+            for point, position in self._positions_ahead(self._stretched):
                 time = GlobalTime(self.hearing.origin + self._stretched.earliest(position))
                 if time > now + RESOLUTION:
                     yield point, time
 
-    def misplaced(self, now: GlobalTime) -> Iterator[MovePoint]:
-        """The points of a stretched speech that are not where its course has them.
+    def misplaced(self, now: GlobalTime) -> MovePoints | None:
+        """The request that points come when their sounds do, if they are not planned for that.
 
-        The course differs from what the pegs say when words are as slow or as fast as they may be, and where the sound
-        is made already. A point whose time is unknown comes when its sound does. One that cannot move is not asked for
-        again.
+        The course differs from what the pegs say when words are as slow or as fast as they may be, where the sound is
+        made already, when more is made, and after a change of the rate. A point whose time is unknown comes when its
+        sound does. One that cannot move is not asked for again.
         """
-        if self._stretched is None or self.hearing is None or not self._follows:
-            return
-        for point, position in self._positions_ahead():
-            heard = GlobalTime(self.hearing.origin + self._stretched.course.time(position))
-            time = point.peg.value
-            off = heard < now + _AHEAD if time is None else abs(time - heard) > _SLACK
-            if off and self._asked.get(point.id) != (time, heard):
-                self._asked[point.id] = time, heard
-                yield MovePoint(self, point, heard)
+        origin, playing = self.origin, self.hearing is not None
+        if self._stretched is None or origin is None or not self._follows or not (playing or self.timing.rigid):
+            return None
+        ahead = self._positions_ahead(self._stretched)
+        times = {point.id: GlobalTime(origin + self._stretched.course.time(position)) for point, position in ahead}
+        slack = RESOLUTION if self.timing.rigid else _SLACK
+        off = {each.id: each.peg.value for each, _ in ahead if _is_off(each.peg.value, times[each.id], now, slack)}
+        asked = {sync: (time, times[sync]) for sync, time in off.items()}
+        if all(self._asked.get(sync) == each for sync, each in asked.items()):
+            return None
+        self._asked |= asked
+        return MovePoints(self, times if self.timing.rigid else {sync: times[sync] for sync in off}, now)
 
     def next_due(self) -> Time:
         """As `PlanUnit.next_due`, or when more of its sound is to be made."""
-        due, stretched, origin = super().next_due(), self._stretched, self.origin if self.points else None
-        if stretched is None or stretched.complete or origin is None or not self.live:
+        due, origin = super().next_due(), self.origin if self.points else None
+        begin = None if self._stretched is None else self._stretched.makes_next
+        if begin is None or origin is None or not self.live:
             return due
-        making = GlobalTime(origin + stretched.made - _AHEAD)
+        making = GlobalTime(origin + begin - _AHEAD)
         return making if due is None else min(due, making)
 
     def detach(self, point: SyncPoint, time: GlobalTime) -> None:
@@ -194,19 +214,19 @@ class SpeechUnit(SoundUnit):
     def extend(self, utterance: Utterance, now: GlobalTime) -> None:
         """Take the utterance when more of it is made: its times from there on change, and its sound can be heard."""
         if (lacks_from := self.lacks_from()) is not None and lacks_from < now + _LEAD:
-            self._spoken.pause(now + _LEAD - lacks_from)
-        self._spoken.extend(utterance)
+            self._pause(GlobalTime(now + _LEAD))
+        self._heard_as.extend(utterance)
         self._retime()
 
     def lacks_from(self) -> Time:
         """The time from which on nothing is made, while it plays; None if all is."""
-        begin = self._spoken.next_part
+        begin = self._heard_as.next_part
         return None if self.hearing is None or begin is None else GlobalTime(self.hearing.origin + begin)
 
     def wait(self, until: GlobalTime) -> None:
         """Have what is not made not begin before a time."""
         if (lacks_from := self.lacks_from()) is not None and lacks_from < until:
-            self._spoken.pause(until - lacks_from)
+            self._pause(until)
             self._retime()
 
     @property
@@ -238,32 +258,79 @@ class SpeechUnit(SoundUnit):
             return {"word": str(index), "text": self.utterance.words[index].text}
         return self._heard(time) if sync == "end" else {}
 
-    def _offsets(self) -> dict[str, float]:
-        """The times of its marks and words, s after its start."""
-        utterance = self._spoken.timed
+    def _offsets(self, utterance: Utterance) -> dict[str, float]:
+        """The times of its points in an utterance, s after its start; its own points keep their order."""
         words = {sync: utterance.words[index].start for sync, index in self._words.items()}
         return {mark.id: utterance.marks[mark.id] for mark in self.speech.marks} | words
 
-    def _retime(self) -> None:
-        """Give its points the times that are known now, in their present order."""
-        offsets = {"start": 0.0, **self._offsets(), "end": self.utterance.duration}
+    def _ordered(self, utterance: Utterance) -> dict[str, float]:
+        """The times of all its points in an utterance, s after its start, in their present order."""
+        offsets = {"start": 0.0, **self._offsets(utterance), "end": utterance.duration}
         points = self.timing.points
-        times = accumulate((offsets[sync] for sync in points), max)
-        self.timing = self._timed(dict(zip(points, times, strict=True)))
+        return dict(zip(points, accumulate((offsets[sync] for sync in points), max), strict=True))
+
+    def _retime(self) -> None:
+        """Give its points the times that are known now; those of a changed pace are asked for (`misplaced`)."""
+        if self._stretched is None:
+            self.timing = self._timed(self._ordered(self.utterance))
+        else:
+            self._follow(self._stretched)
+            self._take_timing(self._loosened(self._elastic))
         self.wake()
 
-    def _positions_ahead(self) -> list[tuple[SyncPoint, float]]:
+    def _follow(self, stretched: StretchedUtterance) -> None:
+        """Have what is not made follow its sync points and its rate."""
+        before, origin = stretched.course, self.origin
+        if self._follows and (origin is not None or self.timing.rigid):
+            stretched.follow(() if origin is None else self._goals(origin), self._rate.value)
+            if stretched.course is not before:
+                self._take_timing(self._loosened(self._elastic))
+
+    def _take_timing(self, timing: Timing) -> None:
+        self.timing = timing
+        self.shortest = [phase.shortest for phase in timing.phases]
+
+    def _loosened(self, count: int) -> Timing:
+        """A timing of which some phases, the first ones, can be stretched within limits; the others are as planned."""
+        utterance = self._heard_as.utterance
+        pace, spoken = pace_of(utterance), self._ordered(utterance)
+        phases = list(timing_at(self._ordered(self.utterance), PhaseKind.RIGID).phases)
+        for k, (begin, end) in enumerate(pairwise([*spoken.values()][: count + 1])):
+            pauses = sum(1 for each in pace.pauses if begin < each <= end)
+            longest = pace.most * (end - begin) + _LONGEST_PAUSE * pauses
+            elastic = Phase(end - begin, maximum=longest, shortest=pace.least * (end - begin))
+            phases[k] = elastic if end > begin else Phase(0.0, PhaseKind.RIGID)
+        return Timing(tuple(spoken), tuple(phases))
+
+    def _taken_over(self, now: GlobalTime) -> StretchedUtterance:
+        """What goes on, from the next word that no client has heard of yet, instead of what the voice has made."""
+        heard, spoken = 0.0 if (origin := self.origin) is None else now - origin + _AHEAD, self._spoken
+        if heard <= 0.0 or (self.hearing is None and origin is None):
+            return StretchedUtterance(spoken.utterance)
+        begin = border_after(spoken.timed, heard)
+        if spoken.next_part is not None:
+            begin = min(begin, spoken.next_part)
+        spoken.sounds[:] = [each._replace(until=begin) for each in spoken.sounds]
+        return StretchedUtterance(spoken.utterance, spoken.course, begin, spoken.sounds)
+
+    def _pause(self, until: GlobalTime) -> None:
+        """Have what is not made not begin before a time."""
+        if self.hearing is not None:
+            self._heard_as.pause(until - self.hearing.origin)
+
+    def _positions_ahead(self, stretched: StretchedUtterance) -> list[tuple[SyncPoint, float]]:
         """The points that have not fired, with their positions in the utterance as it was made, s."""
-        positions = dict(zip(self.timing.points, self.timing.offsets, strict=True))
+        positions = self._ordered(stretched.utterance)
         return [(point, positions[point.id]) for point in self.ahead()]
 
     def _goals(self, origin: GlobalTime) -> list[tuple[float, float]]:
-        """When positions of the utterance are to be heard, s after its start: those of its end, and of tied points."""
-        last = self.points[-1]
+        """When positions of the utterance are to be heard, s after its start: those of points that constraints name."""
+        if self._stretched is None or self.timing.rigid:
+            return []
         return [
             (point.peg.value - origin, position)
-            for point, position in self._positions_ahead()
-            if (point.tied or point is last) and point.peg.value is not None
+            for point, position in self._positions_ahead(self._stretched)
+            if point.tied and point.peg.value is not None
         ]
 
     def _timed(self, offsets: Mapping[str, float]) -> Timing:
@@ -278,6 +345,11 @@ class SpeechUnit(SoundUnit):
         whole = position >= self.utterance.duration - RESOLUTION
         heard = len(self.utterance.text) if whole else begun[-1].last
         return {"word": str(len(begun) - 1), "text": begun[-1].text, "heard": str(heard)}
+
+
+def _is_off(planned: Time, heard: GlobalTime, now: GlobalTime, slack: float) -> bool:
+    """Whether a point is to come when it is heard, instead of when it is planned; ``slack`` in s."""
+    return heard < now + _AHEAD if planned is None else abs(planned - heard) > slack
 
 
 def wants_words(behavior: Behavior) -> bool:

@@ -1,4 +1,4 @@
-"""Makes speech faster or slower without a change of its pitch."""
+"""Makes speech faster or slower, and higher or lower, independently of each other."""
 
 import numpy as np
 import numpy.typing as npt
@@ -25,58 +25,79 @@ class TimeScale:
     stays near its place: so a sound that is not stretched stays as it is, to the sample. Samples are integers, so that
     their sums, by which frames are compared, are exact: every machine makes the same sound.
 
+    For another pitch, a frame takes more or less of the source and is resampled, which moves the formants too.
+
     Args:
-        pcm: the source: mono, int16, little-endian.
-        rate: its samples a second, Hz.
+        rate: samples a second of the source and of the frames, Hz.
+        begin: of the sound that it makes, s.
 
     Attributes:
         hop: samples from a frame to the next.
         next: when the next frame begins, samples from the start; each is two hops long.
     """
 
-    def __init__(self, pcm: bytes, rate: int) -> None:
+    def __init__(self, rate: int, begin: float = 0.0) -> None:
         self._rate = rate
         self.hop = round(_HOP * rate)
-        self.next = -self.hop
-        self._length = 2 * self.hop
+        self.next = round(begin * rate) if begin else -self.hop
         self._tolerance = round(_TOLERANCE * rate)
         self._step = max(1, rate // _SEARCH_RATE)
-        phase = 2.0 * np.pi * np.arange(self._length) / self._length
+        phase = 2.0 * np.pi * np.arange(2 * self.hop) / (2 * self.hop)
         self._window = 0.5 - 0.5 * np.cos(phase)
-        self._margin = 2 * self._length
-        self._source = np.pad(np.frombuffer(pcm, "<i2").astype(np.float64), self._margin)
-        self._place: int | None = None
-        """Where the last frame was taken from, in the source."""
+        self._source: Samples = np.zeros(0)
+        self._follows: int | None = None
+        """Where the last frame goes on, in the source."""
 
-    def frames(self, course: Course, count: int) -> Samples:
+    def add(self, pcm: bytes) -> None:
+        """Add samples to the source: mono, int16, little-endian."""
+        self._source = np.concatenate((self._source, np.frombuffer(pcm, "<i2").astype(np.float64)))
+
+    def reach(self, pitch: float) -> float:
+        """How much of the source a frame may need after the position of its middle, s."""
+        return (pitch * self.hop + self._tolerance + 1) / self._rate
+
+    def frames(self, course: Course, count: int, pitch: float = 1.0) -> Samples:
         """The next frames, added up: the first half of the first one grows louder, the last half of the last one fades.
 
         Args:
             course: when which position of the source is heard, s.
             count: number of frames.
+            pitch: a factor.
         """
+        hop = round(pitch * self.hop)
         added = np.zeros((count + 1) * self.hop)
         for begin in range(0, count * self.hop, self.hop):
             center = (self.next + self.hop) / self._rate
-            self._place = self._find(round(course.position(center) * self._rate) - self.hop + self._margin)
+            place = self._find(round(course.position(center) * self._rate) - hop, 2 * hop)
             if not course.waits(center):
-                frame = self._source[self._place : self._place + self._length]
-                added[begin : begin + self._length] += self._window * frame
+                added[begin : begin + 2 * self.hop] += self._window * self._frame(place, pitch)
+            self._follows = place + hop
             self.next += self.hop
         return added
 
-    def _find(self, ideal: int) -> int:
-        """Where to take a frame that should be from a place in the source."""
-        ideal = min(max(ideal, self._tolerance), len(self._source) - self._length - self._tolerance)
-        if self._place is None:
-            return ideal
-        follows = self._place + self.hop
-        if abs(follows - ideal) <= self._tolerance // 2:
-            return follows
-        first, last = ideal - self._tolerance, ideal + self._tolerance + self._length
-        around = self._source[first : last : self._step]
-        wanted = self._source[follows : follows + self._length : self._step]
+    def _frame(self, place: int, pitch: float) -> Samples:
+        """A frame that begins at a place in the source."""
+        if pitch == 1.0:
+            return self._taken(place, 2 * self.hop)
+        at = pitch * np.arange(2 * self.hop)
+        source = self._taken(place, int(at[-1]) + 2)
+        resampled: Samples = np.rint(np.interp(at, np.arange(len(source)), source))
+        return resampled
+
+    def _find(self, ideal: int, length: int) -> int:
+        """Where to take a frame of a length that should be from a place in the source."""
+        if self._follows is None or abs(self._follows - ideal) <= self._tolerance // 2:
+            return ideal if self._follows is None else self._follows
+        first = ideal - self._tolerance
+        around = self._taken(first, length + 2 * self._tolerance)[:: self._step]
+        wanted = self._taken(self._follows, length)[:: self._step]
         energy = np.concatenate(([0.0], np.cumsum(around * around)))
         energies = energy[len(wanted) :] - energy[: -len(wanted)]
         alike = np.correlate(around, wanted, "valid") / np.sqrt(energies + _SILENCE)
         return first + self._step * int(np.argmax(alike))
+
+    def _taken(self, first: int, count: int) -> Samples:
+        """Samples of the source from a place on; silence outside of it."""
+        part = self._source[max(first, 0) : max(first + count, 0)]
+        before = min(max(-first, 0), count)
+        return part if len(part) == count else np.pad(part, (before, count - before - len(part)))

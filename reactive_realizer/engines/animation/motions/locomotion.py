@@ -13,7 +13,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.feet import LEG_JOINTS, walks
 from reactive_realizer.embodiment.place import Place, between_headings, heading_of
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.engine.effects import MovePoint
+from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext
 from reactive_realizer.engines.animation.candidates import Candidates
 from reactive_realizer.engines.animation.faults import NoJoints, NoManner, NotStanding, PlaceNotReached, WrongElement
@@ -160,7 +160,7 @@ class LocomotionUnit(AnimationUnit):
         look = GlobalTime(self._looked + _LOOKS_EVERY)
         return look if due is None else min(due, look)
 
-    def look(self, now: GlobalTime, place: Place, speed: float) -> Iterator[MovePoint]:
+    def look(self, now: GlobalTime, place: Place, speed: float) -> Iterator[MovePoints]:
         """Look at the target; yield the move of the end to when the figure will arrive, if that has changed.
 
         Args:
@@ -178,7 +178,7 @@ class LocomotionUnit(AnimationUnit):
             self._expected = expected
             self._end = GlobalTime(now + self.motion.duration(place, speed))
             if not self._tied and end is not None and abs(end - self._end) > _EARLIER:
-                yield MovePoint(self, self.point("end"), self._end)
+                yield MovePoints(self, {"end": self._end}, now)
         if end is not None and self.motion.misses(place, end - now):
             self.motion.fault = PlaceNotReached(way=_way(place, self.motion.place))
 
