@@ -155,9 +155,8 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
     if entry.push is not None:
         push = Push(next(iter(live.realizer.characters)), "vl5", entry.push, 0.2)
         live.realizer.put(push, GlobalTime(begun + PUSH_AFTER))
-    if entry.face or entry.mouth:
-        await camera.page.wait_for_function("viewer.morph('alice', 'jawOpen') !== null")
-        await camera.page.click("#shot-face")
+    await camera.page.wait_for_function("viewer.morph('alice', 'jawOpen') !== null")
+    await camera.page.click("#shot-face" if entry.face or entry.mouth else "#shot-upper")
     if entry.mouth:
         await approach_mouth(camera.page, entry.avatar)
     pictures = []

@@ -39,10 +39,11 @@ async def test_the_page_shows_a_figure_and_loads_nothing_from_elsewhere(serve: S
         assert foot < 0.2
 
 
-async def test_it_shows_the_figure_in_full_quality_too(serve: Serve) -> None:
+@pytest.mark.parametrize(("query", "quality"), [("", "normal"), ("?quality=high", "high")])
+async def test_it_shows_the_figure_in_full_quality_too(serve: Serve, query: str, quality: str) -> None:
     async with serve(ALICE) as scene:
-        page = await scene.open("")
-        assert await page.evaluate("viewer.quality") == "normal"
+        page = await scene.open(query)
+        assert await page.evaluate("viewer.quality") == quality
 
 
 async def test_bml_that_is_sent_from_the_page_moves_the_arm_and_its_feedback_appears(serve: Serve) -> None:
@@ -60,7 +61,7 @@ async def test_buttons_and_keys_choose_a_shot_until_the_user_moves_the_camera(se
     async with serve(ALICE) as scene:
         page = await scene.open()
         pressed = page.locator(".shots [aria-pressed=true]")
-        await expect(pressed).to_have_text("Upper body")
+        await expect(pressed).to_have_text("Head and shoulders")
         whole = await page.locator("#viewport canvas").screenshot()
         await page.keyboard.press("1")
         await expect(pressed).to_have_text("Face")

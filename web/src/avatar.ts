@@ -17,10 +17,17 @@ import type { Pose } from "./binary";
 import type { Figure } from "./framing";
 import type { Character, Position } from "./protocol";
 import { isSkinColor, Skin } from "./skin";
+import { type Leg, type Seat, seatOf } from "./stool";
 import type { Quality } from "./viewport";
 
 /** Names of the bone of a head, also with a prefix: `Head`, `mixamorig:Head`. */
 const HEAD = /(^|[^a-z])head$/i;
+
+/** Names of the bones of the legs, with or without a prefix: `LeftUpLeg`, `mixamorig:LeftUpLeg`. */
+const LEGS = ["Left", "Right"].map((side) => ({ hip: `${side}UpLeg`, knee: `${side}Leg`, ankle: `${side}Foot` }));
+
+/** Names of the materials inside a mouth, where the shadow map is too coarse: the avatar's colors are dark enough. */
+const MOUTH = /mouth|teeth|tongue/i;
 
 /** One mesh's entry for a morph's weight: a face consists of several meshes that share their morphs. */
 interface MorphSlot {
@@ -92,9 +99,21 @@ export class Avatar {
     return new Vector3(0, 0, 1).applyQuaternion(turn).setY(0).normalize().toArray();
   }
 
+  /** The seat under it; null if it does not sit, or has no legs of known names. */
+  get seat(): Seat | null {
+    const legs = LEGS.map(({ hip, knee, ankle }) => [hip, knee, ankle].map((name) => this.ending(name)));
+    return seatOf(legs.flatMap(([hip, knee, ankle]): Leg[] => (hip && knee && ankle ? [{ hip, knee, ankle }] : [])));
+  }
+
   /** World position of a bone, m; null when the avatar has none of this name. */
   bone(name: string): Position | null {
     const bone = this.bones[this.character.joints.indexOf(name)];
+    return bone === undefined ? null : worldPosition(bone);
+  }
+
+  /** World position of the bone with a name, after a prefix or none, m. */
+  private ending(name: string): Position | null {
+    const bone = this.bones.find((other) => other?.name === name || other?.name.endsWith(`mixamorig${name}`));
     return bone === undefined ? null : worldPosition(bone);
   }
 
@@ -142,9 +161,9 @@ function slotsOf(meshes: Mesh[], morph: string): MorphSlot[] {
 function prepare(mesh: Mesh, quality: Quality): void {
   // The bounds of a skinned mesh are those of its rest pose, which may be out of view while the avatar is not.
   mesh.frustumCulled = false;
-  mesh.castShadow = true;
-  mesh.receiveShadow = true;
   const material = mesh.material;
+  mesh.castShadow = true;
+  mesh.receiveShadow = ![material].flat().some(({ name }) => MOUTH.test(name));
   if (!(material instanceof MeshStandardMaterial)) return;
   if (quality === "low") mesh.material = plain(material);
   else if (material.alphaTest > 0) material.alphaToCoverage = true;

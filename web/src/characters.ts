@@ -6,6 +6,7 @@ import { FaceClock } from "./clock";
 import type { Figure } from "./framing";
 import { Playout } from "./playout";
 import type { Character, Position } from "./protocol";
+import { Stool } from "./stool";
 import type { Quality } from "./viewport";
 
 /** A character of the scene; its avatar is null until it is loaded. */
@@ -14,6 +15,7 @@ interface LoadedCharacter {
   playout: Playout;
   face: FaceClock;
   avatar: Avatar | null;
+  stool: Stool;
 }
 
 /** All characters of the scene, as listed in the last `hello`. */
@@ -56,7 +58,10 @@ export class Characters {
         this.add(character);
       }
     }
-    for (const { avatar } of former.values()) avatar?.dispose();
+    for (const { avatar, stool } of former.values()) {
+      avatar?.dispose();
+      stool.remove();
+    }
   }
 
   push(frame: Frame): void {
@@ -69,11 +74,12 @@ export class Characters {
    * `heard` gives the time of the frame that shows what is heard of a character, null if nothing is.
    */
   show(time: number, heard: (character: string) => number | null): void {
-    for (const { character, playout, face, avatar } of this.byIndex.values()) {
+    for (const { character, playout, face, avatar, stool } of this.byIndex.values()) {
       const pose = playout.sample(time, face.at(time, heard(character.id)));
       if (pose === null || avatar === null) continue;
       avatar.apply(pose);
       if (avatar.object.parent === null) this.scene.add(avatar.object);
+      stool.show(avatar.seat);
     }
   }
 
@@ -106,7 +112,8 @@ export class Characters {
   }
 
   private add(character: Character): void {
-    const added: LoadedCharacter = { character, playout: new Playout(), face: new FaceClock(), avatar: null };
+    const stool = new Stool(this.scene, this.quality);
+    const added: LoadedCharacter = { character, playout: new Playout(), face: new FaceClock(), avatar: null, stool };
     this.byIndex.set(character.index, added);
     Avatar.load(character, this.quality).then(
       (avatar) => {

@@ -3,7 +3,7 @@ import { Box3, MathUtils, Vector3 } from "three";
 import type { Position } from "./protocol";
 
 /** How much of the characters the camera shows. */
-export type Shot = "face" | "upper" | "full";
+export type Shot = "face" | "bust" | "upper" | "full";
 
 /** A character as the camera sees it: places in the world, m. */
 export interface Figure {
@@ -21,14 +21,15 @@ export interface View {
 const USUAL: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0] };
 
 /** Space above the head and below what is shown, m: hands are raised above the head. */
-const ABOVE: Record<Shot, number> = { face: 0.05, upper: 0.13, full: 0.13 };
+const ABOVE: Record<Shot, number> = { face: 0.05, bust: 0.1, upper: 0.13, full: 0.13 };
 const BELOW = 0.05;
 
 /** Space to each side of the characters, m: a gesture reaches farther than a face. */
-const REACH: Record<Shot, number> = { face: 0.16, upper: 0.5, full: 0.5 };
+const REACH: Record<Shot, number> = { face: 0.16, bust: 0.27, upper: 0.5, full: 0.5 };
 
-/** Height of a face, with hair and neck, m. */
+/** Heights of a face with hair and neck, and of head and shoulders, m. */
 const FACE = 0.32;
+const BUST = 0.5;
 
 /** Distance of the eyes from the crown, m. */
 const EYES = 0.12;
@@ -45,10 +46,15 @@ export function framing(shot: Shot, figures: Figure[], aspect: number, fov: numb
   const width = max.x - min.x + 2 * REACH[shot];
   const height = Math.max(top - min.y + BELOW, width / aspect);
   // A narrow window shows more height: it shows more of the legs, and at most as much above the heads as below.
-  const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, shot === "face" ? min.y : top / 2), max.z);
+  const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, isNear(shot) ? min.y : top / 2), max.z);
   const distance = height / 2 / Math.tan(MathUtils.degToRad(fov / 2));
-  const above = shot === "face" ? Math.max(LOWEST, max.y - EYES) : EYE_HEIGHT;
+  const above = isNear(shot) ? Math.max(LOWEST, max.y - EYES) : EYE_HEIGHT;
   return { target, eye: new Vector3(target.x, above, target.z + distance) };
+}
+
+/** Whether a shot shows heads only, and so has to follow a small move. */
+export function isNear(shot: Shot): boolean {
+  return shot === "face" || shot === "bust";
 }
 
 /** Points of a figure that a shot shows. */
@@ -57,6 +63,8 @@ function outline(shot: Shot, { crown, root }: Figure): Vector3[] {
   switch (shot) {
     case "face":
       return [new Vector3(x, y, z), new Vector3(x, y - FACE, z)];
+    case "bust":
+      return [new Vector3(x, y, z), new Vector3(x, y - BUST, z)];
     case "upper":
       return [new Vector3(...root), new Vector3(x, y, root[2])];
     case "full":

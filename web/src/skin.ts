@@ -1,4 +1,4 @@
-import { BufferAttribute, type Material, Mesh, type WebGLProgramParametersWithUniforms } from "three";
+import { BufferAttribute, type Material, Mesh, ShaderChunk, type WebGLProgramParametersWithUniforms } from "three";
 
 /** The weights that color the skin, by their names in `morphs`. */
 export const SKIN_COLORS = ["skinBlush", "skinPallor"] as const;
@@ -10,7 +10,7 @@ const BLUSHING = { cheekSquintLeft: 1, cheekSquintRight: 1, cheekPuff: 0.5 };
 
 const ATTRIBUTE = "blushes";
 
-/** The skin of an avatar: the materials with "skin" in their names, which blush and turn pale. */
+/** The skin of an avatar: the materials with "skin" in their names, which blush, turn pale and let light through. */
 export class Skin {
   private readonly uniforms = { skinBlush: { value: 0 }, skinPallor: { value: 0 } };
 
@@ -43,7 +43,8 @@ export class Skin {
       .replace("#include <begin_vertex>", `#include <begin_vertex>\nvBlushes = ${ATTRIBUTE};`);
     shader.fragmentShader = shader.fragmentShader
       .replace("void main() {", `varying float vBlushes;\n${UNIFORMS}\nvoid main() {`)
-      .replace("#include <color_fragment>", `#include <color_fragment>\n${COLORS}`);
+      .replace("#include <color_fragment>", `#include <color_fragment>\n${COLORS}`)
+      .replace("#include <lights_physical_pars_fragment>", SOFT_LIGHT);
   }
 }
 
@@ -59,6 +60,16 @@ const COLORS = `
   float light = dot(diffuseColor.rgb, vec3(0.2126, 0.7152, 0.0722));
   diffuseColor.rgb = mix(diffuseColor.rgb, light * vec3(1.25, 1.14, 1.0), 0.45 * skinPallor);
 `;
+
+/** How far light wraps around skin, red farthest, because red is scattered farthest below the surface. */
+const WRAP = "vec3( 0.30, 0.13, 0.09 )";
+
+/** Three's physical lighting, with light that reaches around the edge of the lit side. */
+const SOFT_LIGHT = ShaderChunk.lights_physical_pars_fragment.replace(
+  "reflectedLight.directDiffuse += irradiance *",
+  `vec3 wrapped = saturate( ( dot( geometryNormal, directLight.direction ) + ${WRAP} ) / ( 1.0 + ${WRAP} ) );
+  reflectedLight.directDiffuse += wrapped * directLight.color *`,
+);
 
 export function isSkinColor(name: string): name is SkinColor {
   return (SKIN_COLORS as readonly string[]).includes(name);

@@ -2,28 +2,30 @@ import {
   CanvasTexture,
   CircleGeometry,
   Color,
-  DirectionalLight,
-  HemisphereLight,
   Mesh,
   MeshLambertMaterial,
   MeshStandardMaterial,
-  NeutralToneMapping,
   PerspectiveCamera,
-  PMREMGenerator,
   Scene,
   SRGBColorSpace,
   type Texture,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
+import type { EffectComposer } from "three/addons/postprocessing/EffectComposer.js";
 
+import { ContactShadow } from "./contact_shadow";
 import { Follow } from "./follow";
-import { type Figure, framing, type Shot } from "./framing";
+import { type Figure, framing, isNear, type Shot } from "./framing";
+import { lightSimply, lightWell } from "./lighting";
+import { withOcclusion } from "./occlusion";
 import type { Position } from "./protocol";
 
-/** How much the page spends on looks: `?quality=low` is for machines without a graphics card. */
-export type Quality = "normal" | "low";
+/**
+ * How much the page spends on looks: `?quality=low` is for machines without a graphics card, `?quality=high` adds
+ * ambient occlusion.
+ */
+export type Quality = "low" | "normal" | "high";
 
 /** Least time between two reports of the camera's position, ms. */
 const REPORT_INTERVAL = 200;
@@ -42,7 +44,8 @@ const LOW_RATE = 12;
 
 /** The quality that the page's address asks for. */
 export function qualityOf(address: string): Quality {
-  return new URL(address).searchParams.get("quality") === "low" ? "low" : "normal";
+  const asked = new URL(address).searchParams.get("quality");
+  return asked === "low" || asked === "high" ? asked : "normal";
 }
 
 /** The 3D view: light, floor, backdrop and camera. Other modules add their objects to `scene`. */
@@ -52,9 +55,11 @@ export class Viewport {
   private readonly renderer: WebGLRenderer;
   private readonly controls: OrbitControls;
   /** How much of the characters the camera keeps in view; null once the user has moved the camera. */
-  private shot: Shot | null = "upper";
+  private shot: Shot | null = "bust";
   private figures: Figure[] = [];
   private readonly follow = new Follow();
+  private contactShadow: ContactShadow | null = null;
+  private composer: EffectComposer | null = null;
   private nextDraw = 0;
 
   /** Throws when the browser has no WebGL 2. */
@@ -70,10 +75,10 @@ export class Viewport {
     });
     container.prepend(canvas);
     this.controls = this.orbit(canvas);
-    this.light();
-    this.scene.add(floor(quality));
-    if (quality === "normal") this.embellish();
-    else this.scene.background = new Color(BACKDROP_TOP);
+    const ground = floor(quality);
+    this.scene.add(ground);
+    if (quality === "low") this.simplify();
+    else this.embellish(ground);
     new ResizeObserver(() => {
       this.resize();
     }).observe(container);
@@ -87,7 +92,7 @@ export class Viewport {
   /** Keeps all characters in view, at a page time (ms), unless the user has moved the camera. */
   frame(page: number, figures: Figure[]): void {
     const roots = figures.map(({ root }) => root);
-    if (this.shot === null || !this.follow.update(page, roots)) return;
+    if (this.shot === null || !this.follow.update(page, roots, isNear(this.shot))) return;
     this.figures = figures;
     this.look();
   }
@@ -104,7 +109,10 @@ export class Viewport {
     if (page < this.nextDraw) return;
     if (this.quality === "low") this.nextDraw = page + 1000 / LOW_RATE;
     this.controls.update();
-    this.renderer.render(this.scene, this.camera);
+    const { x, z } = this.controls.target;
+    this.contactShadow?.update(this.renderer, this.camera, x, z);
+    if (this.composer === null) this.renderer.render(this.scene, this.camera);
+    else this.composer.render();
   }
 
   private orbit(canvas: HTMLCanvasElement): OrbitControls {
@@ -125,42 +133,22 @@ export class Viewport {
     this.onShot(shot);
   }
 
-  private light(): void {
-    const low = this.quality === "low";
-    const key = new DirectionalLight("#fff4e6", low ? 2.2 : 2.4);
-    key.position.set(1.6, 3.2, 2.6);
-    key.castShadow = !low;
-    key.shadow.mapSize.set(2048, 2048);
-    key.shadow.radius = 5;
-    key.shadow.bias = -0.0004;
-    key.shadow.normalBias = 0.02;
-    Object.assign(key.shadow.camera, {
-      left: -2.5,
-      right: 2.5,
-      top: 2.5,
-      bottom: -2.5,
-      near: 0.5,
-      far: 9,
-    });
-    const rim = new DirectionalLight("#dcecff", 0.9);
-    rim.position.set(-2.2, 2.4, -2.4);
-    this.scene.add(key, rim, new HemisphereLight("#ffffff", "#b9b2a8", low ? 2 : 0.35));
+  private simplify(): void {
+    lightSimply(this.scene);
+    this.scene.background = new Color(BACKDROP_TOP);
   }
 
-  private embellish(): void {
+  private embellish(ground: Mesh): void {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.toneMapping = NeutralToneMapping;
-    const generator = new PMREMGenerator(this.renderer);
-    this.scene.environment = generator.fromScene(new RoomEnvironment(), 0.04).texture;
-    this.scene.environmentIntensity = 0.55;
-    generator.dispose();
+    lightWell(this.scene, this.renderer);
+    this.contactShadow = new ContactShadow(this.scene, ground);
     this.scene.background = gradientTexture(2, 512, (context) => {
       const gradient = context.createLinearGradient(0, 0, 0, 512);
       gradient.addColorStop(0, BACKDROP_TOP);
       gradient.addColorStop(1, BACKDROP_BOTTOM);
       return gradient;
     });
+    if (this.quality === "high") this.composer = withOcclusion(this.renderer, this.scene, this.camera);
   }
 
   private resize(): void {
@@ -168,6 +156,7 @@ export class Viewport {
     if (clientWidth === 0 || clientHeight === 0) return;
     const scale = this.quality === "low" ? Math.sqrt(LOW_PIXELS / (clientWidth * clientHeight)) : 1;
     this.renderer.setSize(Math.round(clientWidth * scale), Math.round(clientHeight * scale), false);
+    this.composer?.setSize(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
     this.look();

@@ -9,7 +9,12 @@ describe("the camera", () => {
 
   /** Whether the camera followed at each of some roots of one character, 20 ms apart. */
   function followed(...roots: Position[]): boolean[] {
-    return roots.map((root) => follow.update((page += 20), [root]));
+    return roots.map((root) => follow.update((page += 20), [root], false));
+  }
+
+  /** The same of a camera that is close to the head. */
+  function followedClosely(...roots: Position[]): boolean[] {
+    return roots.map((root) => follow.update((page += 20), [root], true));
   }
 
   /** A second of rest. */
@@ -24,7 +29,18 @@ describe("the camera", () => {
   });
 
   it("shows characters that have appeared", () => {
-    expect(new Follow().update(0, [[0, 0.9, 0]])).toBe(true);
+    expect(new Follow().update(0, [[0, 0.9, 0]], false)).toBe(true);
+  });
+
+  it("follows who rises, whose head would be cut", () => {
+    const seated = new Follow();
+    seated.update(0, [[0, 0.45, 0]], false);
+    seated.update(1000, [[0, 0.45, 0]], false);
+    expect(seated.update(1020, [[0, 0.6, 0]], false)).toBe(true);
+  });
+
+  it("follows who sits down when it is close to the head", () => {
+    expect(followedClosely([0.05, 0.9, 0], [0, 0.85, 0], [0, 0.7, 0])).toEqual([false, false, true]);
   });
 
   it("does not follow who sways, bows or sits down", () => {
@@ -42,6 +58,6 @@ describe("the camera", () => {
   it("follows who collapses, and who returns", () => {
     expect(followed([0, 0.5, 0], [0, 0.2, 0])).toEqual([false, true]);
     followed(...resting([0, 0.2, 0]));
-    expect(followed([0, 0.5, 0], [0, 0.85, 0], [0, 0.9, 0])).toEqual([false, true, true]);
+    expect(followed([0, 0.25, 0], [0, 0.5, 0], [0, 0.9, 0])).toEqual([false, true, true]);
   });
 });

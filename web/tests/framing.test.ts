@@ -19,7 +19,7 @@ function seen(point: Position, shot: Shot, figures: Figure[], aspect = 16 / 9): 
 }
 
 describe("the framing", () => {
-  it.each(["face", "upper", "full"] as const)("never cuts a head: %s", (shot) => {
+  it.each(["face", "bust", "upper", "full"] as const)("never cuts a head: %s", (shot) => {
     for (const figure of [STANDING, SITTING]) {
       const { y } = seen(figure.crown, shot, [figure]);
       expect(y).toBeLessThan(1);
@@ -32,13 +32,19 @@ describe("the framing", () => {
     expect(seen(STANDING.crown, "face", [STANDING]).y - seen(chin, "face", [STANDING]).y).toBeGreaterThan(1);
   });
 
+  it("shows the shoulders with the head", () => {
+    const shoulder: Position = [0.2, 1.4, 0];
+    expect(seen(shoulder, "bust", [STANDING]).y).toBeGreaterThan(-1);
+    expect(seen(STANDING.root, "bust", [STANDING]).y).toBeLessThan(-1);
+  });
+
   it("shows the hips with the upper body, and the feet with the full body", () => {
     expect(seen(STANDING.root, "upper", [STANDING]).y).toBeGreaterThan(-1);
     expect(seen([0, 0, 0], "upper", [STANDING]).y).toBeLessThan(-1);
     expect(seen([0, 0, 0], "full", [STANDING]).y).toBeGreaterThan(-1);
   });
 
-  it.each(["face", "upper", "full"] as const)("shows all characters, in narrow windows too: %s", (shot) => {
+  it.each(["face", "bust", "upper", "full"] as const)("shows all characters, in narrow windows too: %s", (shot) => {
     const beside: Figure = { crown: [1.2, 1.8, 0], root: [1.2, 0.95, 0] };
     for (const aspect of [2, 0.6]) {
       const places = [STANDING, beside].map(({ crown }) => seen(crown, shot, [STANDING, beside], aspect));

@@ -23,7 +23,7 @@ function compiled(mesh: Mesh): WebGLProgramParametersWithUniforms {
   const shader = {
     uniforms: {},
     vertexShader: "void main() {\n#include <begin_vertex>\n}",
-    fragmentShader: "void main() {\n#include <color_fragment>\n}",
+    fragmentShader: "void main() {\n#include <color_fragment>\n}\n#include <lights_physical_pars_fragment>",
   } as WebGLProgramParametersWithUniforms;
   (mesh.material as MeshStandardMaterial).onBeforeCompile(shader, undefined as never);
   return shader;
@@ -31,6 +31,14 @@ function compiled(mesh: Mesh): WebGLProgramParametersWithUniforms {
 
 it("lets the cheeks blush most", () => {
   expect([...blushing(face("Skin"))]).toEqual([0, 1, 0.25]);
+});
+
+it("lets light reach around the edge of skin, and of nothing else", () => {
+  const meshes = [face("BodySkin"), face("Hair")];
+  new Skin(meshes);
+  const [body, hair] = meshes.map(compiled);
+  expect(body?.fragmentShader).toContain("directDiffuse += wrapped *");
+  expect(hair?.fragmentShader).not.toContain("wrapped");
 });
 
 it("colors the materials of the skin by the weights, and no others", () => {

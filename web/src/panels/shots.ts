@@ -4,6 +4,7 @@ import type { Shot } from "../framing";
 /** The button of each shot; the n-th has the key n. */
 const SHOTS: [Shot, string][] = [
   ["face", "shot-face"],
+  ["bust", "shot-bust"],
   ["upper", "shot-upper"],
   ["full", "shot-full"],
 ];
