@@ -42,10 +42,12 @@ class EngineContract(ABC):
     Attributes:
         elements: elements of behaviors that the engine plays, one or more of each kind.
         refused: elements of the same kinds that it cannot play, such as those with an unknown lexeme.
+        lacking: parameters that the engine declares and these elements lack, such as the rate of silent speech.
     """
 
     elements: ClassVar[tuple[str, ...]]
     refused: ClassVar[tuple[str, ...]] = ()
+    lacking: ClassVar[frozenset[str]] = frozenset()
 
     @abstractmethod
     def engine(self, context: EngineContext) -> Engine:
@@ -133,7 +135,9 @@ class EngineContract(ABC):
         harness, behavior = self._harness(), behavior_of(element)
         unit = harness.schedule(behavior, _START)
         declared = harness.engine.parameters.get(type(behavior), {})
+        declared = {name: range_ for name, range_ in declared.items() if name not in self.lacking}
         assert declared.keys() <= unit.parameters.keys(), "a unit may have further parameters, from its file"
+        assert self.lacking.isdisjoint(unit.parameters)
         for parameter in unit.parameters.values():
             assert parameter.value in parameter.range
         for share in (0.0, 1.0):
@@ -344,6 +348,8 @@ class EngineContract(ABC):
 
     def _plays_alone(self, harness: EngineHarness, unit: PlanUnit, *, frames: bool = False) -> None:
         harness.advance(max(0.0, harness.end(unit) - harness.now) + 0.05, frames=frames)
+        if (late := harness.end(unit) - harness.now) > 0.0:  # a changed parameter moved the end
+            harness.advance(late + 0.05, frames=frames)
         assert harness.points(unit) == harness.planned(unit)
         assert not unit.live
 

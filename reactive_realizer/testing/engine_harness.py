@@ -332,7 +332,7 @@ class EngineHarness:
             case MovePoints(unit=unit, times=times):
                 with self._graph.transaction("move"):
                     for sync, time in times.items():
-                        unit.point(sync).peg.pin(time)
+                        self._pegs[unit][sync].set(time)
             case ActivateBlock() | InterruptBlock() | Warn() | ReportFall():
                 pass  # there are no other blocks, and no client
 

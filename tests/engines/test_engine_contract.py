@@ -61,12 +61,15 @@ class TestSpeech(EngineContract):
         '<speech id="s"><text>Put it <sync id="m"/>here, <sync id="n"/>please.<sync id="o"/></text></speech>',
     )
     refused = ('<speech id="s"><text>...</text></speech>',)
+    lacking = frozenset({"rate", "pitch"})
 
     def engine(self, context: EngineContext) -> Engine:
         return SpeechEngine(context)
 
 
 class TestSpeechWithAudio(TestSpeech):
+    lacking = frozenset()
+
     def context(self) -> EngineContext:
         return minimal_context(SlowVoice())
 
