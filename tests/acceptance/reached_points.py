@@ -19,8 +19,8 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.behaviors import Gesture, Pointing
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.inertialization import Inertialization
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.speed_limit import SpeedLimit
 from reactive_realizer.embodiment.vector import Vec3, distance, dot, subtract, unit
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
@@ -30,6 +30,9 @@ NEAR, AIMED = 0.02, 2.0
 
 _AT_ONCE = 1e-3
 """Time in which a hand moves by millimeters, s."""
+
+_REPLACED = 0.1
+"""A wrist whose goal moves further in a frame has another motion, m."""
 
 GESTURES = ("BEAT", "OFFER", "WAVE", "CONDUCT", "SELF", "CONDUIT", "CHOP", "FLICK", "ONE")
 TARGETS = ("bluebox", "greensphere")
@@ -177,15 +180,15 @@ def reached(pilot: RealizerPilot, record: Record) -> Iterator[Reached]:
 
 
 def _shown_at(time: float, side: str, frames: Sequence[Shown]) -> Iterator[Shown]:
-    """The frame after a point, and the one before, if the motion has come near the point by then.
+    """The frame after a point, and the one before, if the motion has come near the point by then, or was replaced.
 
     A hand that is there in the frame before may have left in the one after.
     """
     after = next(index for index, frame in enumerate(frames) if frame.time >= time - _AT_ONCE)
     yield frames[after]
     if after >= 2:
-        earlier, before = (frame.wanted.transform(f"{side}_wrist").position for frame in frames[after - 2 : after])
-        if distance(earlier, before) < NEAR:
+        goals = [frame.wanted.transform(f"{side}_wrist").position for frame in frames[after - 2 : after + 1]]
+        if distance(*goals[:2]) < NEAR or distance(*goals[1:]) > _REPLACED:
             yield frames[after - 1]
 
 
@@ -206,13 +209,16 @@ def _finger(body: Body, side: str) -> Vec3:
 def recorded() -> Iterator[Record]:
     """Records a single figure."""
     record = Record([], {})
-    limited, start = SpeedLimit.__call__, AnimationUnit.on_start
+    inertialized, note, start = Inertialization.__call__, Inertialization.note_shown, AnimationUnit.on_start
+    goals: list[Body] = []
 
-    def call(self: SpeedLimit, wanted: Body, duration: float) -> Body:
-        shown = limited(self, wanted, duration)
-        time = record.frames[-1].time if record.frames else 0.0
-        record.frames.append(Shown(time + duration, wanted, shown))
-        return shown
+    def call(self: Inertialization, goal: Body, now: GlobalTime) -> Body:
+        goals.append(goal)
+        return inertialized(self, goal, now)
+
+    def note_shown(self: Inertialization, body: Body, now: GlobalTime) -> None:
+        record.frames.append(Shown(now, goals[-1], body))
+        note(self, body, now)
 
     def on_start(self: AnimationUnit, time: GlobalTime) -> None:
         if isinstance(self.behavior, Gesture | Pointing):
@@ -221,7 +227,8 @@ def recorded() -> Iterator[Record]:
         start(self, time)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(SpeedLimit, "__call__", call)
+        patch.setattr(Inertialization, "__call__", call)
+        patch.setattr(Inertialization, "note_shown", note_shown)
         patch.setattr(AnimationUnit, "on_start", on_start)
         yield record
 
