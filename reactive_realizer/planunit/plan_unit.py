@@ -16,8 +16,8 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
 from reactive_realizer.planunit.body_parts import BodyPart, parts_of
-from reactive_realizer.planunit.pace import Pace
 from reactive_realizer.planunit.parameter import Parameter
+from reactive_realizer.planunit.phase_progress import PhaseProgress
 from reactive_realizer.planunit.timing import OPEN, SHORTEST, Overtaken, Timing, TooShort
 
 logger = logging.getLogger(__name__)
@@ -143,7 +143,7 @@ class PlanUnit:
         self.hurries: dict[str, Hurry] = {}
         self.ends_early = False
         self.state = UnitState.PENDING
-        self._pace: Pace | None = None
+        self._progress: PhaseProgress | None = None
 
     # --- for subclasses
 
@@ -370,10 +370,10 @@ class PlanUnit:
     def progress(self, now: GlobalTime) -> float:
         """The share of its present phase that is done, 0 to 1."""
         ahead = self.ahead()
-        if self._pace is None or not ahead:
+        if self._progress is None or not ahead:
             return 0.0
-        self._pace.move(ahead[0].peg.value, now)
-        return self._pace.share(now)
+        self._progress.move(ahead[0].peg.value, now)
+        return self._progress.share(now)
 
     def keep_order(self, part: Callable[[SyncPoint], None] = lambda point: None) -> bool:
         """Within a transaction, keep each point that has not fired in time for later ones; whether any was not.
@@ -444,7 +444,7 @@ class PlanUnit:
         if due and (ahead := self.ahead()):
             late = now - due[-1].time > LATE
             since, need = now if late else due[-1].time, self._needs()[-len(ahead) - 1]
-            self._pace = Pace(since, ahead[0].peg.value, need)
+            self._progress = PhaseProgress(since, ahead[0].peg.value, need)
 
     def interrupt(self, time: GlobalTime) -> list[SyncPoint]:
         """Within a transaction, end at a time: ``relax`` and ``end`` move there alone; other points are removed."""

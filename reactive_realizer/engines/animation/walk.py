@@ -45,7 +45,7 @@ class Walk:
 
     def moves(self, unit: LocomotionUnit, now: GlobalTime) -> Iterator[MovePoints]:
         """Yield the moves of the end of a locomotion."""
-        yield from unit.look(now, self._humanoid.place, self._walker.course.speed)
+        yield from unit.look(now, self._humanoid.place, self._walker.progression.speed)
 
     def layers(self, now: GlobalTime, units: Sequence[LocomotionUnit], rest: Body) -> tuple[Layer, ...]:
         """Move the figure to where it is at a time, and return the layers of its walking.
@@ -57,7 +57,7 @@ class Walk:
         """
         goals = [goal for unit in units if (goal := unit.goal()) is not None]
         self._walker.advance(now, goals[-1] if goals else None, rest)
-        self._humanoid.place = self._walker.course.place
+        self._humanoid.place = self._walker.progression.place
         passed, self._time = now - self._time, now
         change = passed / _EASING
         moving = self.active and not self._walker.arrived
@@ -73,4 +73,4 @@ class Walk:
         poses = self._walker.poses(body)
         self.feet = tuple(pose.ankle for pose in poses)
         lowered = Layer(LayerKind.ADDITIVE, {}, root=(0.0, -lowering(body, poses, walking), 0.0))
-        return pelvis, lowered, limbs(self._walker.course, poses, rest)
+        return pelvis, lowered, limbs(self._walker.progression, poses, rest)

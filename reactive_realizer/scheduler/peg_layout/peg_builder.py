@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
-from reactive_realizer.scheduler.peg_layout.peg_rules import AtPosition, Between, Position, Step
+from reactive_realizer.scheduler.peg_layout.peg_rules import AtPosition, Between, PlannedPeg, Position
 from reactive_realizer.scheduler.peg_layout.section import PointRule, Section
 from reactive_realizer.scheduler.problem import Node, Origin, Point
 
@@ -51,13 +51,13 @@ class PegBuilder:
                 self._names[key] = self._name_of(point)
         self.made: list[TimePeg] = []
         self.pegs: dict[Point, TimePeg] = {}
-        self._roots: dict[Step, TimeCell] = {}
+        self._roots: dict[PlannedPeg, TimeCell] = {}
         self._shared: dict[tuple[int, float], TimePeg] = {}
 
     def steps(self) -> Iterator[None]:
         """Make the pegs of all points one by one; those of roots are made first, each after those it depends on."""
-        for step in self._section.rules.steps:
-            self._roots[step] = self._bounded(step.root) if step.bounded else self._natural(step.root)
+        for planned in self._section.rules.pegs:
+            self._roots[planned] = self._bounded(planned.root) if planned.bounded else self._natural(planned.root)
             yield
         made: dict[int, TimePeg] = {}
         for point in self._points:
@@ -105,7 +105,7 @@ class PegBuilder:
         return self._given[root] if root < self._network.fixed else self._offset(name, self._start, natural.offset)
 
     def _bounded(self, root: int) -> TimeCell:
-        rule, peg = self._section.rules.rules[root], self._roots.get(Step(root, bounded=False))
+        rule, peg = self._section.rules.rules[root], self._roots.get(PlannedPeg(root, bounded=False))
         if peg is None:
             return self._natural(root)
         name = self._root_name(root)
@@ -124,7 +124,7 @@ class PegBuilder:
     def _from_root(self, position: Position, *, bounded: bool = True) -> Bound:
         """The peg of the root of a position, and the offset (s) from it: from the first point of the root."""
         root, offset = position
-        return self._roots[Step(root, bounded)], offset - self._network.leads[root]
+        return self._roots[PlannedPeg(root, bounded)], offset - self._network.leads[root]
 
     def _offset(self, name: str, link: TimeCell, offset: float) -> TimePeg:
         """A peg at an offset from another; from the start of the block, if the other depends only on that."""

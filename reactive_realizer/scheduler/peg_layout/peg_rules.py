@@ -40,7 +40,7 @@ class Between(NamedTuple):
 Natural = AfterStart | AtPosition | Between
 
 
-class Step(NamedTuple):
+class PlannedPeg(NamedTuple):
     """A peg to be made: of a root, with its bounds or as it naturally is; where that is the same, there is one."""
 
     root: int
@@ -66,38 +66,38 @@ class PegRule:
     ceilings: list[Position] = field(default_factory=list)
 
     @property
-    def bounds(self) -> list[Step]:
+    def bounds(self) -> list[PlannedPeg]:
         """The pegs that its bounds depend on."""
         others = (*self.floors, *self.after, *self.ceilings)
         return [
-            *(Step(position.root, bounded=False) for position in self.before),
-            *(Step(position.root, bounded=True) for position in others),
+            *(PlannedPeg(position.root, bounded=False) for position in self.before),
+            *(PlannedPeg(position.root, bounded=True) for position in others),
         ]
 
 
-def steps(rules: Mapping[int, PegRule]) -> list[Step]:
+def ordered_pegs(rules: Mapping[int, PegRule]) -> list[PlannedPeg]:
     """All pegs, each after those that it depends on.
 
     Raises:
-        graphlib.CycleError: one depends on itself; its second argument is a circle of steps, each needed for the next.
+        graphlib.CycleError: one depends on itself; its second argument is a circle of pegs, each needed for the next.
     """
-    needs: dict[Step, Sequence[Step]] = {}
+    needs: dict[PlannedPeg, Sequence[PlannedPeg]] = {}
     named = {position.root for rule in rules.values() for position in rule.before}
     for root, rule in rules.items():
-        bounded = Step(root, bounded=True)
-        needs[bounded] = [Step(position.root, bounded=True) for position in rule.natural.positions]
+        bounded = PlannedPeg(root, bounded=True)
+        needs[bounded] = [PlannedPeg(position.root, bounded=True) for position in rule.natural.positions]
         if rule.before or rule.after or root in named:
-            natural = Step(root, bounded=False)
+            natural = PlannedPeg(root, bounded=False)
             needs[natural], needs[bounded] = needs.pop(bounded), [natural, *rule.bounds]
     return _in_turn(needs) or list(TopologicalSorter(needs).static_order())
 
 
-def _in_turn(needs: Mapping[Step, Sequence[Step]]) -> list[Step]:
-    """All steps as they come, if each comes after those that it needs, as in almost all plans; else none."""
-    made: dict[Step, None] = {}
-    for step, needed in needs.items():
+def _in_turn(needs: Mapping[PlannedPeg, Sequence[PlannedPeg]]) -> list[PlannedPeg]:
+    """All pegs as they come, if each comes after those that it needs, as in almost all plans; else none."""
+    made: dict[PlannedPeg, None] = {}
+    for peg, needed in needs.items():
         for each in needed:
             if each not in made:
                 return []
-        made[step] = None
+        made[peg] = None
     return list(made)

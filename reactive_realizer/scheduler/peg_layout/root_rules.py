@@ -15,9 +15,9 @@ from reactive_realizer.scheduler.peg_layout.peg_rules import (
     Between,
     Natural,
     PegRule,
+    PlannedPeg,
     Position,
-    Step,
-    steps,
+    ordered_pegs,
 )
 
 
@@ -31,7 +31,7 @@ class RootRules:
 
     Attributes:
         rules: by root.
-        steps: the order in which the pegs can be made.
+        pegs: in an order in which they can be made.
     """
 
     def __init__(self, network: Network) -> None:
@@ -48,7 +48,7 @@ class RootRules:
             given |= self._with_bases(bounded - given)
             self._depend_on(given)
         self._stop_bounds(given, outside)
-        self.steps = self._order_steps()
+        self.pegs = self._order_pegs()
 
     # --- clusters
 
@@ -224,27 +224,27 @@ class RootRules:
 
     # --- circles of bounds
 
-    def _order_steps(self) -> list[Step]:
+    def _order_pegs(self) -> list[PlannedPeg]:
         """A bound by which a peg would depend on itself is dropped; a cluster then begins when it was planned to."""
         while True:
             try:
-                return steps(self.rules)
+                return ordered_pegs(self.rules)
             except CycleError as problem:
                 self._open(problem.args[1])
 
-    def _open(self, circle: Sequence[Step]) -> None:
+    def _open(self, circle: Sequence[PlannedPeg]) -> None:
         """Drop the limits of bounds that close a circle; if there are none, its earliest bound."""
-        pairs = [(step, needed) for needed, step in pairwise(circle) if step.bounded]
-        bounds = [(step, needed) for step, needed in pairs if needed in self.rules[step.root].bounds]
-        rules = [(self.rules[step.root], needed.root) for step, needed in bounds]
+        pairs = [(peg, needed) for needed, peg in pairwise(circle) if peg.bounded]
+        bounds = [(peg, needed) for peg, needed in pairs if needed in self.rules[peg.root].bounds]
+        rules = [(self.rules[peg.root], needed.root) for peg, needed in bounds]
         stops = [(held, root) for rule, root in rules for held in (rule.floors, rule.ceilings)]
         dropped = [(held, root) for held, root in stops if any(position.root == root for position in held)]
         if not dropped:
-            step, needed = min(bounds, key=lambda pair: (self._network.first_times[pair[0].root], pair))
-            rule = self.rules[step.root]
+            peg, needed = min(bounds, key=lambda pair: (self._network.first_times[pair[0].root], pair))
+            rule = self.rules[peg.root]
             dropped = [(rule.after if needed.bounded else rule.before, needed.root)]
-            within = self._network.clusters[step.root] == self._network.clusters[needed.root]
+            within = self._network.clusters[peg.root] == self._network.clusters[needed.root]
             if isinstance(rule.natural, AfterStart) and not within:
-                rule.natural = AfterStart(self._network.first_times[step.root])
+                rule.natural = AfterStart(self._network.first_times[peg.root])
         for held, root in dropped:
             held[:] = [position for position in held if position.root != root]

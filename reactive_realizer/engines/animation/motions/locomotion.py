@@ -20,7 +20,6 @@ from reactive_realizer.engines.animation.faults import NoJoints, NoManner, NotSt
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
-from reactive_realizer.engines.animation.walking.course import Goal
 from reactive_realizer.engines.animation.walking.destination import (
     DIRECTION,
     DISTANCE,
@@ -30,6 +29,7 @@ from reactive_realizer.engines.animation.walking.destination import (
     destination,
 )
 from reactive_realizer.engines.animation.walking.manner import FASTEST, MANNERS, SLOWEST, Manner, is_at
+from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Range, spelled

@@ -11,7 +11,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply, twist
 from reactive_realizer.embodiment.vector import UP, Vec3, subtract
 from reactive_realizer.engines.animation.easing import share, smoothstep
-from reactive_realizer.engines.animation.walking.course import Axis, Course
+from reactive_realizer.engines.animation.walking.progression import Axis, Progression
 from reactive_realizer.engines.animation.walking.walker import FootPose, Walker
 
 _SWAY = 0.25
@@ -85,7 +85,7 @@ class Carriage:
         spots = walker.over_ground()
         apart = spots[1][2] - spots[0][2]
         aside = self._aside(now, spots, walker.bearing)
-        forward, change = walker.course.forward
+        forward, change = walker.progression.forward
         yaw, roll = _PELVIS_YAW * apart, _PELVIS_ROLL * aside
         lean = _LEAN * forward + _LEAN_TO_START * change
         wide = max(0.0, spots[0][0] - spots[1][0] - 2.0 * _WIDEST)
@@ -127,23 +127,23 @@ def _softly(lacking: float, softness: float) -> float:
     return lacking if lacking > 30.0 * softness else softness * math.log1p(math.exp(lacking / softness))
 
 
-def limbs(course: Course, feet: Sequence[FootPose], rest: Body) -> Layer:
+def limbs(progression: Progression, feet: Sequence[FootPose], rest: Body) -> Layer:
     """Return the layer of arms, hips and toes.
 
     Args:
-        course: of the figure.
+        progression: of the figure.
         feet: left first.
         rest: the body at rest.
     """
-    turns = {**_arms(course, feet, rest), **_toes(feet, rest), **_hips(feet, rest)}
+    turns = {**_arms(progression, feet, rest), **_toes(feet, rest), **_hips(feet, rest)}
     return Layer(LayerKind.FULL_BODY, {joint: turn for joint, turn in turns.items() if joint in rest.skeleton})
 
 
-def _arms(course: Course, feet: Sequence[FootPose], rest: Body) -> Mapping[str, Quat]:
+def _arms(progression: Progression, feet: Sequence[FootPose], rest: Body) -> Mapping[str, Quat]:
     """Return shoulders and elbows."""
     left, right = (foot.ankle.position[2] for foot in feet)
-    apart, speed = right - left, course.forward[0]
-    runs = course.goal is not None and course.goal.manner.flies
+    apart, speed = right - left, progression.forward[0]
+    runs = progression.goal is not None and progression.goal.manner.flies
     running = smoothstep(share(speed, _RUNNING_FROM, _RUNNING_AT)) if runs else 0.0
     swing = _ARM_SWING + running * (_RUNNING_ARM_SWING - _ARM_SWING)
     bent = _ELBOW * smoothstep(share(abs(speed), 0.0, 1.0)) + running * _RUNNING_ELBOW

@@ -11,9 +11,9 @@ from reactive_realizer.embodiment.place import Place, between_headings
 from reactive_realizer.embodiment.quaternion import conjugate, multiply
 from reactive_realizer.embodiment.vector import Vec3, distance
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.walking.course import Course, Goal
-from reactive_realizer.engines.animation.walking.foot import Foot, FootShape
 from reactive_realizer.engines.animation.walking.manner import WALK
+from reactive_realizer.engines.animation.walking.progression import Goal, Progression
+from reactive_realizer.engines.animation.walking.walking_foot import FootShape, WalkingFoot
 
 _CLOSE = 0.055
 """Distance of an ankle from the middle in walking ahead, m: the prints are nearer to a line than at rest."""
@@ -63,19 +63,19 @@ class FootPose(NamedTuple):
 class Walker:
     """The place of a figure, and its feet, from frame to frame.
 
-    Prints are chosen when a foot leaves the ground, from where the course will be while it stands there. Of the last
-    steps, each foot makes one to its place at rest, and the second one ends when the course does. A goal that moves on
+    Prints are chosen when a foot leaves the ground, from where the frame will be while it stands there. Of the last
+    steps, each foot makes one to its place at rest, and the second one ends with the progression. A goal that moves on
     the way moves the prints of the steps that follow, and their times.
 
     Attributes:
-        course: of the figure's frame.
+        progression: of the figure's frame.
         feet: left first; empty while the figure stands at rest.
     """
 
     def __init__(self, place: Place) -> None:
         """Stand at a place."""
-        self.course = Course(place)
-        self.feet: tuple[Foot, ...] = ()
+        self.progression = Progression(place)
+        self.feet: tuple[WalkingFoot, ...] = ()
         self._now = GlobalTime(0.0)
         self._last: int | None = None
         self._period = 0.5
@@ -102,29 +102,29 @@ class Walker:
             self._pursue(goal)
         elif self._pursued is not None:
             self._pursued = None
-            if self.course.goal is not None and now < self.course.goal.end:
-                self.course.brake(since, self.course.goal.manner)
+            if self.progression.goal is not None and now < self.progression.goal.end:
+                self.progression.brake(since, self.progression.goal.manner)
         if not self.feet:
             return
         while since < now - 1e-9:
             time = GlobalTime(min(now, since + 0.02))
-            self.course.advance(since, time)
+            self.progression.advance(since, time)
             self._step(time)
             since = time
 
     def _set_out(self, rest: Body) -> None:
-        self.feet = tuple(Foot(FootShape.of(rest, side), self.course.place) for side in SIDES)
+        self.feet = tuple(WalkingFoot(FootShape.of(rest, side), self.progression.place) for side in SIDES)
         self._last, self._set_out_at = None, self._now
 
     def _pursue(self, goal: Goal) -> None:
         if goal != self._pursued:
             self._pursued = goal
-            self.course.pursue(goal)
+            self.progression.pursue(goal)
 
     @property
     def arrived(self) -> bool:
         """Whether the figure has come to rest on both feet; it stays active until `rest`."""
-        goal = self.course.goal
+        goal = self.progression.goal
         return (
             goal is not None
             and self._pursued is None
@@ -134,11 +134,11 @@ class Walker:
 
     def rest(self) -> None:
         """End the walk of a figure that has arrived."""
-        self.course, self.feet = Course(self.course.place), ()
+        self.progression, self.feet = Progression(self.progression.place), ()
 
     def over_ground(self) -> tuple[Vec3, ...]:
         """Return where the feet are in the figure's frame, without their height, m; left first."""
-        place = self.course.place
+        place = self.progression.place
         return tuple(place.to_own(foot.over_ground(self._now).position) for foot in self.feet)
 
     def poses(self, body: Body) -> tuple[FootPose, ...]:
@@ -147,12 +147,12 @@ class Walker:
         Args:
             body: with the pelvis in its place.
         """
-        place = self.course.place
+        place = self.progression.place
         return tuple(self._pose(side, foot, place, body) for side, foot in zip(SIDES, self.feet, strict=True))
 
-    def _pose(self, side: str, foot: Foot, place: Place, body: Body) -> FootPose:
+    def _pose(self, side: str, foot: WalkingFoot, place: Place, body: Body) -> FootPose:
         hip = place.to_world(body.transform(f"{side}_hip").position)
-        rolls = share(self.course.forward[0], -_BACKWARD, 0.0)
+        rolls = share(self.progression.forward[0], -_BACKWARD, 0.0)
         ankle = foot.at(self._now, place, hip, reach(body.skeleton, side), rolls)
         own = Transform(place.to_own(ankle.position), multiply(conjugate(place.turn), ankle.rotation))
         return FootPose(own, foot.pitch, foot.bears(self._now))
@@ -160,8 +160,8 @@ class Walker:
     @property
     def bearing(self) -> int | None:
         """The foot that bears the figure, or is about to: 0 is left, 1 is right; None if both do."""
-        goal = self.course.goal
-        stepping = [number for number, foot in enumerate(self.feet) if foot.step is not None]
+        goal = self.progression.goal
+        stepping = [number for number, foot in enumerate(self.feet) if foot.swing is not None]
         if len(stepping) == 1:
             return 1 - stepping[0]
         following = None if goal is None or stepping or not self.feet else self._next_foot(goal, self._now)
@@ -171,18 +171,18 @@ class Walker:
 
     def _step(self, now: GlobalTime) -> None:
         for foot in self.feet:
-            if foot.step is not None and foot.step.until <= now + 1e-9:
+            if foot.swing is not None and foot.swing.until <= now + 1e-9:
                 foot.touch_down()
-        goal = self.course.goal
+        goal = self.progression.goal
         if goal is None:
             return
         number = self._next_foot(goal, now)
         if number is None:
             return
         foot, other = self.feet[number], self.feet[1 - number]
-        busy = max(other.landed, self._set_out_at + _SHIFTING) if other.step is None else other.step.until
-        support = goal.manner.double_support(self.course.speed)
-        if foot.step is None and now >= busy + support * self._period:
+        busy = max(other.landed, self._set_out_at + _SHIFTING) if other.swing is None else other.swing.until
+        support = goal.manner.double_support(self.progression.speed)
+        if foot.swing is None and now >= busy + support * self._period:
             self._lift_off(number, goal, now)
 
     def _next_foot(self, goal: Goal, now: GlobalTime) -> int | None:
@@ -195,7 +195,7 @@ class Walker:
         return self._alternate()
 
     def _moves(self, goal: Goal, now: GlobalTime) -> bool:
-        place = self.course.place
+        place = self.progression.place
         way = distance(place.position, goal.place.position)
         turn = between_headings(place.heading, goal.place.heading)
         return now < goal.end and (way > _HOME or abs(turn) > _HOME_TURN)
@@ -206,26 +206,26 @@ class Walker:
         aside = self._aside(self._now, 0.5)
         if abs(aside) > 0.5:
             return 0 if aside > 0.0 else 1
-        left, right = (self.course.place.to_own(foot.print.position)[2] for foot in self.feet)
+        left, right = (self.progression.place.to_own(foot.print.position)[2] for foot in self.feet)
         return 0 if left < right - 0.01 else 1
 
-    def _is_home(self, foot: Foot, place: Place) -> bool:
+    def _is_home(self, foot: WalkingFoot, place: Place) -> bool:
         home = self._home(foot, place)
         near = distance(foot.goal.position, home.position) < _HOME
         return near and abs(between_headings(foot.goal.heading, home.heading)) < _HOME_TURN
 
     @staticmethod
-    def _home(foot: Foot, place: Place) -> Place:
+    def _home(foot: WalkingFoot, place: Place) -> Place:
         return Place(place.to_world(foot.shape.place), place.heading)
 
     def _steps_left(self, goal: Goal, now: GlobalTime) -> int:
-        return max(1, round((goal.end - now) / goal.manner.period(self.course.speed)))
+        return max(1, round((goal.end - now) / goal.manner.period(self.progression.speed)))
 
     def _lift_off(self, number: int, goal: Goal, now: GlobalTime) -> None:
         foot, other = self.feet[number], self.feet[1 - number]
         manner, left = goal.manner, goal.end - now
-        soon = self.course.ahead(now, GlobalTime(now + 0.3))
-        period = manner.period(max(self.course.speed, soon.speed))
+        soon = self.progression.ahead(now, GlobalTime(now + 0.3))
+        period = manner.period(max(self.progression.speed, soon.speed))
         count = max(1, round(left / period))
         if count == 1 and left > 1.6 * _SHORTEST_STEP and not self._is_home(other, goal.place):
             count = 2
@@ -245,17 +245,17 @@ class Walker:
         self._last, self._period = number, period
 
     @staticmethod
-    def _worth(foot: Foot, target: Place) -> bool:
+    def _worth(foot: WalkingFoot, target: Place) -> bool:
         way = distance(foot.print.position, target.position)
         return way + _HIP_TURN * abs(between_headings(foot.print.heading, target.heading)) > _WORTH
 
     @staticmethod
-    def _share_ahead(course: Course) -> float:
-        forward, _ = course.forward
+    def _share_ahead(progression: Progression) -> float:
+        forward, _ = progression.forward
         return min(1.0, max(0.0, forward / WALK.speed))
 
     def _landing(self, number: int, until: GlobalTime, period: float, support: float) -> Place:
-        """Return the print of a foot that comes down at a time: the course passes over it in the middle of its stance.
+        """Return the print of a foot that comes down at a time: the frame passes over it in the middle of its stance.
 
         In steps aside and turns, the foot on that side goes ahead, and the other one follows to its side.
         """
@@ -263,7 +263,7 @@ class Walker:
         aside = self._aside(until, period) * side
         lead = _LEAD * abs(aside) * period if aside > 0.0 else 0.0
         stance = (1.0 - abs(aside)) * 0.5 * (1.0 + support) * period + lead
-        later = self.course.ahead(self._now, GlobalTime(until + stance))
+        later = self.progression.ahead(self._now, GlobalTime(until + stance))
         ahead = self._share_ahead(later)
         x, y, z = foot.shape.place
         narrow = min(1.0, 2.0 * ahead)
@@ -271,8 +271,8 @@ class Walker:
         return Place(later.place.to_world(place), later.place.heading)
 
     def _aside(self, now: GlobalTime, period: float) -> float:
-        """Return how much the course goes aside or turns in a time, -1 (right) to 1 (left)."""
-        before = self.course.ahead(self._now, now)
+        """Return how much the progression goes aside or turns in a time, -1 (right) to 1 (left)."""
+        before = self.progression.ahead(self._now, now)
         after = before.ahead(now, GlobalTime(now + period))
         x, _, z = before.place.to_own(after.place.position)
         turn = _HIP_TURN * (after.heading.at - before.heading.at)

@@ -1,4 +1,4 @@
-"""The course of a figure over the ground: its speed eases in and out, whatever happens to the goal on the way."""
+"""The progression of a figure over the ground: its speed eases in and out, whatever happens to the goal on the way."""
 
 import math
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from reactive_realizer.embodiment.place import Place, between_headings, heading_
 from reactive_realizer.engines.animation.walking.manner import TURNING, Manner, turning_time
 
 _STEP = 0.02
-"""Longest step of time in which a course is followed, s."""
+"""Longest step of time in which a progression is followed, s."""
 
 _AGILITY = 5.0
 """How fast a speed approaches the intended one, 1/s: most of it within half a second, or one step."""
@@ -76,7 +76,7 @@ class Goal:
     end: GlobalTime
 
 
-class Course:
+class Progression:
     """Follows a goal.
 
     Far from the goal, the velocity approaches one with which the figure arrives in time; near it, the rest of the way
@@ -134,7 +134,7 @@ class Course:
             self._follow(self.goal, GlobalTime(since + number * passed), passed)
 
     def ahead(self, now: GlobalTime, time: GlobalTime) -> Self:
-        """Return the course as it is expected to be at a later time, s."""
+        """Return the progression as it is expected to be at a later time, s."""
         other = object.__new__(type(self))
         other.__dict__.update(self.__dict__)
         other.advance(now, max(now, time))

@@ -6,7 +6,7 @@ from reactive_realizer.clock.units import GlobalTime, Time
 
 
 @dataclass(slots=True)
-class Pace:
+class PhaseProgress:
     """A phase passes evenly until its end; if that moves, the pace changes from then on.
 
     Attributes:

@@ -76,7 +76,7 @@ class FootShape(NamedTuple):
         return Transform(print_.to_world((x, y + lift, z)), rotation)
 
 
-class Step(NamedTuple):
+class Swing(NamedTuple):
     """A foot in its swing phase.
 
     Attributes:
@@ -111,13 +111,13 @@ class Step(NamedTuple):
         return place, pitch, high
 
 
-class Foot:
+class WalkingFoot:
     """A foot that stands or steps.
 
     Attributes:
         shape: of it.
         print: where it stands, or stood last.
-        step: that it makes; None while it stands.
+        swing: None while it stands.
         landed: when it touched the ground last, s.
         pitch: turn that lifts its heel, as shown last, rad.
     """
@@ -125,7 +125,7 @@ class Foot:
     def __init__(self, shape: FootShape, place: Place) -> None:
         self.shape = shape
         self.print = Place(place.to_world(shape.place), place.heading)
-        self.step: Step | None = None
+        self.swing: Swing | None = None
         self.landed = GlobalTime(-math.inf)
         self.pitch = 0.0
         self._strike = 0.0
@@ -133,31 +133,31 @@ class Foot:
     @property
     def goal(self) -> Place:
         """The print that it makes next, or in which it stands."""
-        return self.print if self.step is None else self.step.goal
+        return self.print if self.swing is None else self.swing.goal
 
     def lift_off(self, goal: Place, now: GlobalTime, until: GlobalTime, strike: float) -> None:
         """Begin a step to a print."""
-        self.step = Step(goal, now, until, self.print, self.pitch, strike)
+        self.swing = Swing(goal, now, until, self.print, self.pitch, strike)
 
     def touch_down(self) -> None:
         """End the present step."""
-        if self.step is not None:
-            self.print, self.landed, self._strike = self.step.goal, self.step.until, self.step.strike
-            self.step = None
+        if self.swing is not None:
+            self.print, self.landed, self._strike = self.swing.goal, self.swing.until, self.swing.strike
+            self.swing = None
 
     def flat(self) -> bool:
         """Return whether it stands on its whole sole."""
-        return self.step is None and abs(self.pitch) < 1e-4
+        return self.swing is None and abs(self.pitch) < 1e-4
 
     def over_ground(self, now: GlobalTime) -> Place:
         """Return its place at a time."""
-        return self.print if self.step is None else self.step.at(now)[0]
+        return self.print if self.swing is None else self.swing.at(now)[0]
 
     def bears(self, now: GlobalTime) -> float:
         """Return how much the pelvis goes down for it to reach its place, 0 to 1: in the air, it need not do that."""
-        if self.step is None:
+        if self.swing is None:
             return 1.0
-        done = share(now, self.step.since, self.step.until)
+        done = share(now, self.swing.since, self.swing.until)
         return max(1.0 - smoothstep(share(done, 0.0, _LEAVING)), smoothstep(share(done, _COMING, 1.0)))
 
     def at(self, now: GlobalTime, place: Place, hip: Vec3, reach: float, rolls: float) -> Transform:
@@ -172,10 +172,10 @@ class Foot:
             reach: of the leg, m.
             rolls: how far its heel leaves the ground when the figure leaves it behind, 0 to 1.
         """
-        if self.step is None:
+        if self.swing is None:
             self.pitch = self._rolled(now, place, rolls)
             return self._reached(place, hip, reach)
-        ground, self.pitch, lift = self.step.at(now)
+        ground, self.pitch, lift = self.swing.at(now)
         ankle = self.shape.posed(ground, self.pitch, lift)
         way = subtract(ankle.position, hip)
         far = length(way)
