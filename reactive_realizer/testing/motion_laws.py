@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE
+from reactive_realizer.embodiment.arm_anatomy import ArmAnatomy
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.quaternion import Quat, conjugate, difference, multiply, rotation_vector, twist
-from reactive_realizer.embodiment.vector import dot, unit
+from reactive_realizer.embodiment.quaternion import Quat, difference, rotation_vector
 
 _FRAME = FRAME_EVERY / RATE
 _WRISTS, _ELBOWS = (tuple(f"{side}_{joint}" for side in SIDES) for joint in ("wrist", "elbow"))
@@ -84,9 +84,5 @@ def arm_ranges(bodies: Iterable[Body]) -> dict[str, float]:
 
 def arm_turns(body: Body, side: str) -> tuple[float, float]:
     """Return the pronation of a forearm and the radial deviation of its hand, degrees; negative the other way."""
-    along = unit(body.skeleton.offset(f"{side}_wrist"))
-    inward = 1.0 if side == "l" else -1.0
-    elbow, wrist = body.rotation(f"{side}_elbow"), body.rotation(f"{side}_wrist")
-    pronation = sum(dot(rotation_vector(twist(turn, along)), along) for turn in (elbow, wrist))
-    across, _, _ = rotation_vector(multiply(conjugate(twist(wrist, along)), wrist))
-    return inward * math.degrees(pronation), -math.degrees(across)
+    turns = ArmAnatomy.of(body.skeleton, side).turns(body.rotation(f"{side}_elbow"), body.rotation(f"{side}_wrist"))
+    return math.degrees(turns.pronation), math.degrees(turns.deviation)

@@ -7,7 +7,7 @@ from reactive_realizer.testing.pilot import RealizerPilot
 
 from .parameter_changes import HEAD, change
 
-MOST, TURNING = 60.0, 220.0
+MOST, TURNING = 60.0, 240.0
 """m/s² of a wrist, and rad/s² of its joints; the limits of catching up are 50 and 200."""
 
 TURNED = 200.0

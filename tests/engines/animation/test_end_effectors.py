@@ -1,5 +1,6 @@
 """End effectors and the root in procedural animations."""
 
+import math
 from collections.abc import Callable
 
 import pytest
@@ -10,8 +11,10 @@ from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
     angle,
+    difference,
     from_axis_angle,
     from_euler,
+    multiply,
     rotate,
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm
@@ -20,6 +23,7 @@ from reactive_realizer.engines.animation.motion_unit import Moment, MotionUnit
 from reactive_realizer.engines.animation.motions.gesture import GestureMotionUnit
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionUnit
 from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
+from reactive_realizer.testing.motion_laws import arm_turns
 
 
 @pytest.mark.parametrize("side", ["l", "r"])
@@ -51,14 +55,34 @@ def test_the_forearm_makes_half_of_the_wrists_twist_and_the_hand_keeps_its_pose(
     arm = '<EndEffector target="l_wrist" local="true" translation="0;-0.2;0.25"/>'
     plain, twisted = (
         read(arm + f'<Rotation target="l_wrist" rotation="0;{twist};0"/>').sample(0.0, {}, Body(skeleton)).rotations
-        for twist in (0.0, 1.2)
+        for twist in (0.0, 1.0)
     )
-    assert angle(twisted["l_wrist"]) == pytest.approx(0.6, abs=1e-6)
+    assert angle(twisted["l_wrist"]) == pytest.approx(0.5, abs=1e-6)
     before, after = (Body(skeleton, pose).transform("l_wrist") for pose in (plain, twisted))
     assert before.position == pytest.approx(after.position, abs=1e-9)
-    assert rotate(before.rotation, rotate(from_euler(0.0, 1.2, 0.0), (1.0, 0.0, 0.0))) == pytest.approx(
+    assert rotate(before.rotation, rotate(from_euler(0.0, 1.0, 0.0), (1.0, 0.0, 0.0))) == pytest.approx(
         rotate(after.rotation, (1.0, 0.0, 0.0)), abs=1e-6
     )
+
+
+@pytest.mark.parametrize("twist", [-2.2, -1.4, -0.9, 0.9, 1.4, 2.2])
+@pytest.mark.parametrize("deviation", [-0.8, 0.0, 0.8])
+def test_forearm_and_hand_keep_their_limits_and_the_elbow_swivels_for_them(
+    read: Callable[..., ProceduralAnimation], skeleton: Skeleton, twist: float, deviation: float
+) -> None:
+    place = (0.05, -0.2, 0.3)
+    arm = '<EndEffector target="l_wrist" local="true" translation="0.05;-0.2;0.3"/>'
+    plain = read(arm).sample(0.0, {}, Body(skeleton)).rotations
+    wanted = multiply(plain["l_shoulder"], multiply(plain["l_elbow"], from_euler(deviation, twist, 0.3)))
+    turned = read(f'{arm}<Rotation target="l_wrist" rotation="{deviation};{twist};0.3"/>')
+    body = Body(skeleton, turned.sample(0.0, {}, Body(skeleton)).rotations)
+    pronation, radial = arm_turns(body, "l")
+    assert -85 < pronation < 85
+    assert -35 < radial < 25
+    hand = body.transform("l_wrist")
+    assert hand.position == pytest.approx(add(body.transform("l_shoulder").position, place), abs=1e-9)
+    if deviation == 0.0 and abs(twist) < 1.5:
+        assert angle(difference(wanted, hand.rotation)) < math.radians(5)
 
 
 @pytest.mark.parametrize("side", ["l", "r"])

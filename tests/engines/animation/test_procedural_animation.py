@@ -51,19 +51,19 @@ def test_durations_and_key_positions_may_depend_on_parameters(read: Callable[...
 def test_global_keyframes_turn_a_hand_in_the_figures_axes(
     read: Callable[..., ProceduralAnimation], skeleton: Skeleton
 ) -> None:
-    palm_to_the_front = "0;0.7071068;0;0.7071068"
+    palm_inward = "0.7071068;-0.7071068;0;0"
     animation = read(
-        '<EndEffector target="r_wrist" local="true" translation="-0.2;0.1;0.2"/>'
+        '<EndEffector target="r_wrist" local="true" translation="0;-0.23;0.21"/>'
         '<Keyframes target="r_wrist" encoding="quaternion">'
-        f'<Keyframe time="0" local="false" value="{palm_to_the_front}"/>'
-        f'<Keyframe time="1" local="false" value="{palm_to_the_front}"/></Keyframes>'
+        f'<Keyframe time="0" local="false" value="{palm_inward}"/>'
+        f'<Keyframe time="1" local="false" value="{palm_inward}"/></Keyframes>'
     ).fitted_to(skeleton)
     body = Body(skeleton, {"vl5": from_axis_angle((0.0, 1.0, 0.0), 0.3)})
     for phase in (0.0, 0.4, 1.0):
         hand = body.posed(animation.sample(phase, {}, body).rotations).transform("r_wrist").rotation
         # In the default pose the right palm faces the figure's left, fingers down.
-        assert rotate(hand, (1.0, 0.0, 0.0)) == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)
-        assert rotate(hand, (0.0, -1.0, 0.0)) == pytest.approx((0.0, 1.0, 0.0), abs=1e-6)
+        assert rotate(hand, (1.0, 0.0, 0.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
+        assert rotate(hand, (0.0, -1.0, 0.0)) == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)
 
 
 @pytest.mark.parametrize(

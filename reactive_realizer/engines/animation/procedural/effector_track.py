@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2
 
+from reactive_realizer.embodiment.arm_anatomy import ArmAnatomy, ArmRotations
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import SIDES, TRUNK, other_side
 from reactive_realizer.embodiment.quaternion import (
@@ -12,12 +13,10 @@ from reactive_realizer.embodiment.quaternion import (
     difference,
     from_axis_angle,
     multiply,
-    power,
     rotate,
-    twist,
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm, Leg
-from reactive_realizer.embodiment.vector import UP, Vec3, add, length, subtract, unit
+from reactive_realizer.embodiment.vector import UP, Vec3, add, length, subtract
 from reactive_realizer.engines.animation.procedural.tracks import Formulas, TrackPose, negated, parent_rotation
 
 EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
@@ -146,15 +145,11 @@ def _flat(shank: Quat) -> Quat:
     return multiply(conjugate(shank), from_axis_angle(UP, atan2(-z, x)))
 
 
-def share_twist(side: str, turned: Mapping[str, Quat], skeleton: Skeleton) -> Mapping[str, Quat]:
-    """Return rotations in which the forearm makes half of a wrist's twist, as radius and ulna do.
-
-    The hand keeps its pose.
-
-    With all of it in the wrist, the skin there would collapse.
-    """
-    elbow, wrist = f"{side}_elbow", f"{side}_wrist"
+def natural_arm(side: str, turned: Mapping[str, Quat], skeleton: Skeleton) -> Mapping[str, Quat]:
+    """Return rotations of an arm whose forearm and hand keep within their limits; none if its hand is not turned."""
+    shoulder, elbow, wrist = (f"{side}_{joint}" for joint in Arm.JOINTS)
     if wrist not in turned:
         return {}
-    half = power(twist(turned[wrist], unit(skeleton.offset(wrist))), 0.5)
-    return {elbow: multiply(turned[elbow], half), wrist: multiply(conjugate(half), turned[wrist])}
+    anatomy = ArmAnatomy.of(skeleton, side)
+    fitted = anatomy.fitted(ArmRotations(turned[shoulder], turned[elbow], turned[wrist]))
+    return {shoulder: fitted.shoulder, elbow: fitted.elbow, wrist: fitted.wrist}

@@ -18,7 +18,7 @@ from reactive_realizer.engines.animation.expression.compiler import Compiled, co
 from reactive_realizer.engines.animation.expression.syntax import Formula
 from reactive_realizer.engines.animation.faults import BadKeys, NoMotion, NoneTurned, NotReachable
 from reactive_realizer.engines.animation.motion_unit import MotionPose
-from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, carried_as_shown, share_twist
+from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, carried_as_shown, natural_arm
 from reactive_realizer.engines.animation.procedural.tracks import Formulas, RootTrack, RotationTrack, Track, fold_spine
 from reactive_realizer.errors import Fault, RealizerError
 
@@ -179,7 +179,7 @@ class ProceduralAnimation:
             if missed is not None:
                 fault = self._missed(phase, *missed)
         for side in self._twisted_sides:
-            turned |= share_twist(side, turned, body.skeleton)
+            turned |= natural_arm(side, turned, body.skeleton)
         return MotionPose(turned, root=root, fault=fault)
 
     def _missed(self, phase: float, joint: str, distance: float) -> Fault:
