@@ -176,7 +176,11 @@ class PlanUnit:
         return None
 
     def loosen(self, timing: Timing) -> None:
-        """Take a `loose_timing` from now on."""
+        """Take a `loose_timing`, or one of `timing_after`, from now on."""
+
+    def timing_after(self, previous: "PlanUnit") -> Timing:
+        """The timing that it prefers if it starts where another unit of its block leaves the body at its relax."""
+        return self.timing
 
     def lacks_from(self) -> Time:
         """While it plays, the time from which on the results of its slow work are missing; None if none are."""

@@ -28,6 +28,7 @@ from reactive_realizer.scheduler.peg_layout.peg_layout import BuiltPegs, PegLayo
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Loss, Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
+from reactive_realizer.scheduler.takeovers import Takeovers, takeovers
 
 logger = logging.getLogger(__name__)
 
@@ -57,7 +58,8 @@ class BlockProblem:
         holds: constraints that the block satisfies by starting later, with the bounds that they put on its start.
         late: the times from outside that count as unknown, because ties to them are late for the expected start.
         awaited: the points for which behaviors wait; empty if they wait already.
-        loose: timings of the rigid behaviors that can be stretched in this problem, by id.
+        loose: timings of behaviors in this problem that differ from those of their units, by id: rigid ones that can be
+            stretched, and gestures that take over from others.
     """
 
     units: tuple[PlanUnit, ...]
@@ -86,7 +88,14 @@ class BlockProblem:
         if not timings:
             return None
         items = (replace(each, timing=timings.get(each.behavior.id, each.timing)) for each in self.problem.items)
-        return replace(self, problem=replace(self.problem, items=tuple(items)), loose=timings)
+        return replace(self, problem=replace(self.problem, items=tuple(items)), loose={**self.loose, **timings})
+
+    def with_takeovers(self, takeovers: Takeovers) -> "BlockProblem":
+        """The same problem, in which some behaviors start where others relax."""
+        timings = {unit.behavior.id: timing.closed for unit, timing in takeovers.values()}
+        items = tuple(replace(each, timing=timings.get(each.behavior.id, each.timing)) for each in self.problem.items)
+        problem = replace(self.problem, items=items, orders=(*self.problem.orders, *takeovers))
+        return replace(self, problem=problem, loose={**self.loose, **timings})
 
 
 class Plan:
@@ -218,7 +227,8 @@ class Planning:
         A speech that can be stretched is first planned as rigid, and stretched only if more constraints are kept that
         way. One that is tied to times from outside can be stretched later.
         """
-        plan, problem = self._solve(posed), posed.problem
+        plan = self._solve(posed)
+        posed, problem = plan.posed, plan.posed.problem
         if not plan.solution.losses:
             loosened = posed.loosened(following_outside(problem), problem.constraints)
             return plan if loosened is None else Plan(loosened, plan.solution)
@@ -236,13 +246,32 @@ class Planning:
         return None if plan is None or len(plan.losses) > most else plan
 
     def _solve(self, posed: BlockProblem) -> Plan:
-        """A plan of a problem as it is; if the strategy raises, only this block fails."""
+        """A plan of a problem; if the strategy raises, only this block fails."""
         try:
-            return Plan(posed, solve(self._strategy, posed.problem))
+            return self._with_takeovers(self._solve_as_posed(posed))
         except Exception as failure:
             logger.exception("the strategy %s failed", self._strategy.name)
             fault = WorkFailed(reason=str(failure))
             return Plan(posed, Solution({}, (Loss(None, fault, dropped=False, required=True),)))
+
+    def _solve_as_posed(self, posed: BlockProblem) -> Plan:
+        return Plan(posed, solve(self._strategy, posed.problem))
+
+    def _with_takeovers(self, plan: Plan) -> Plan:
+        """A plan in which gestures take over the arms of others, where nothing is lost for that."""
+        refused: set[Precedence] = set()
+        while True:
+            found = takeovers(plan.posed.problem, plan.posed.units, plan.solution.times)
+            tried = refused.union(plan.posed.problem.orders)
+            wanted = {order: each for order, each in found.items() if order not in tried}
+            if not wanted:
+                return plan
+            taking = self._solve_as_posed(plan.posed.with_takeovers(wanted))
+            if len(taking.solution.losses) <= len(plan.solution.losses):
+                plan = taking
+                continue
+            lost = {loss.constraint for loss in taking.solution.losses}
+            refused.update(wanted.keys() & lost or wanted)
 
     def is_stale(self, posed: BlockProblem) -> bool:
         """Whether times from outside have moved since the problem was posed.

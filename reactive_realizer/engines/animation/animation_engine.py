@@ -154,6 +154,7 @@ class AnimationEngine(DefaultEngine):
         return MotionContext(
             lambda: self._humanoid.body,
             lambda: self._humanoid.shown,
+            lambda: self._rest.body,
             self._predictor.state_before,
             self._hands,
             self._note_passed,

@@ -22,6 +22,7 @@ from reactive_realizer.engines.animation.kinematics import KinematicState
 from reactive_realizer.engines.animation.motion_unit import (
     Moment,
     MotionUnit,
+    PhaseDuration,
     layer_of,
     with_gesture_points,
 )
@@ -66,6 +67,7 @@ class MotionContext:
     Attributes:
         body: returns the body as shown last, without additive layers.
         shown: returns the body as shown last.
+        rest: returns the body at rest.
         state_at: returns the kinematic state at a time: the body as shown last, extrapolated.
         hands: returns the body with its hands where they are at a time, as the times of points imply, whether frames
             are made or not; None if they are at rest.
@@ -78,6 +80,7 @@ class MotionContext:
 
     body: Callable[[], Body]
     shown: Callable[[], Body]
+    rest: Callable[[], Body]
     state_at: Callable[[GlobalTime], KinematicState]
     hands: Callable[[GlobalTime], Body | None]
     passed: Callable[["AnimationUnit", str, GlobalTime], None]
@@ -177,6 +180,23 @@ class AnimationUnit(PlanUnit):
             self.timing = replace(self.timing, phases=(replace(first, shortest=needed.shortest), *others))
             self.shortest[0] = needed.shortest
 
+    def timing_after(self, previous: PlanUnit) -> Timing:
+        """Return the timing with a preparation from where the hands are when another motion relaxes."""
+        if not isinstance(previous, AnimationUnit):
+            return self.timing
+        needed = self.motion.preparation(previous.relaxed_body(GlobalTime(0.0), self._context.rest()))
+        return self.timing if needed is None else self._prepared(needed)
+
+    def loosen(self, timing: Timing) -> None:
+        """Take a `timing_after`."""
+        self.timing = timing
+        self.shortest = [phase.shortest for phase in timing.phases]
+
+    def _prepared(self, needed: PhaseDuration) -> Timing:
+        first, *others = self.timing.phases
+        preparation = replace(first, duration=needed.preferred, shortest=needed.shortest)
+        return replace(self.timing, phases=(preparation, *others))
+
     def preference(self, now: GlobalTime) -> Timing:
         """Return the preferred timing.
 
@@ -184,11 +204,7 @@ class AnimationUnit(PlanUnit):
         """
         hands = None if self.begun else self._context.hands(now)
         needed = None if hands is None else self.motion.preparation(hands)
-        if needed is None:
-            return self.timing
-        first, *others = self.timing.phases
-        preparation = replace(first, duration=needed.preferred, shortest=needed.shortest)
-        return replace(self.timing, phases=(preparation, *others))
+        return self.timing if needed is None else self._prepared(needed)
 
     def gentle_end(self, time: GlobalTime, speech: InterruptSpeech) -> GlobalTime:
         """Return the time of the next exit point, or the given time if there is none."""

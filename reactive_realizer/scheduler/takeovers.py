@@ -1,0 +1,61 @@
+"""Takeovers within a block: a gesture takes over the arm of an earlier one after its stroke."""
+
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+
+from reactive_realizer.clock.units import RESOLUTION
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.timing import Timing
+from reactive_realizer.scheduler.problem import Point, Precedence, SchedulingProblem
+
+Takeovers = Mapping[Precedence, tuple[PlanUnit, Timing]]
+"""Constraints, each with the unit that takes over and its timing from where the other one leaves the body."""
+
+_POINTS = frozenset({"strokeEnd", "stroke", "relax"})
+
+
+def takeovers(problem: SchedulingProblem, units: tuple[PlanUnit, ...], times: Mapping[Point, float]) -> Takeovers:
+    """Return the takeovers that let more units of a block play.
+
+    Two units with the same arm exclude each other from the start of one to its relax. If the stroke of the later one
+    comes after that of the earlier one, it need not be lost: it starts at the relax of the earlier one, whose hold is
+    shortened for that, and whose retraction is cut when it starts (`PlanUnit.subsiding`).
+
+    Args:
+        problem: of the block.
+        units: its behaviors.
+        times: of a plan of the problem, s after the start of the block.
+    """
+    named = {node for each in problem.ties for node in each.nodes}
+    found: dict[Precedence, tuple[PlanUnit, Timing]] = {}
+    for resource in sorted({resource for unit in units for resource in unit.resources}):
+        for unit, after in _overlapping([unit for unit in units if resource in unit.resources], times):
+            if Point(unit.behavior.id, "end") not in named:
+                found.setdefault(_order(unit, after), (after, after.timing_after(unit)))
+    return found
+
+
+def _overlapping(units: list[PlanUnit], times: Mapping[Point, float]) -> Iterator[tuple[PlanUnit, PlanUnit]]:
+    """Yield pairs of units with one arm, of which the second starts before the first relaxes, and strokes later."""
+
+    def time(unit: PlanUnit, sync: str) -> float:
+        return times[Point(unit.behavior.id, sync)]
+
+    able = [
+        unit
+        for unit in units
+        if unit.timing.closed is unit.timing
+        and not unit.accompanies
+        and unit.group is None
+        and all(Point(unit.behavior.id, sync) in times for sync in _POINTS)
+    ]
+    for one, other in pairwise(sorted(able, key=lambda unit: (time(unit, "stroke"), unit.behavior.id))):
+        overlap = time(other, "start") < time(one, "relax") - RESOLUTION
+        if overlap and time(other, "stroke") > time(one, "strokeEnd"):
+            yield one, other
+
+
+def _order(one: PlanUnit, other: PlanUnit) -> Precedence:
+    begins, relaxes = Point(other.behavior.id, "start"), Point(one.behavior.id, "relax")
+    text = f"{begins.behavior}:{begins.sync} after {relaxes.behavior}:{relaxes.sync}, which has the same arm"
+    return Precedence(begins, relaxes, 0.0, text, other.behavior.location, text, required=False)

@@ -1,0 +1,62 @@
+"""Gestures of a block that follow each other closely take over the arm from one another."""
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.motion_laws import accelerations
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+BEAT = '<gesture id="g{0}" lexeme="BEAT" mode="RIGHT_HAND" stroke="{1}"/>'
+
+
+def beats(period: float) -> str:
+    return "".join(BEAT.format(number, 1 + number * period) for number in range(4))
+
+
+async def test_beats_half_a_second_apart_all_play(still: RealizerPilot) -> None:
+    still.block("b", beats(0.5))
+    await still.advance(4)
+    told = still.feedback
+    assert told.warnings == []
+    start = told.time("b:start")
+    assert [told.time(f"b:g{number}:stroke") - start for number in range(4)] == pytest.approx([1.0, 1.5, 2.0, 2.5])
+    for number in range(3):
+        assert told.time(f"b:g{number}:end") == told.time(f"b:g{number + 1}:start")
+    assert accelerations(still.bodies(), "r_wrist").max() < 60.0
+
+
+async def test_they_do_with_the_strategy_of_embr_too() -> None:
+    async with open_pilot(SceneOptions(voice="text", strategy="embr", verify=True)) as pilot:
+        pilot.block("b", beats(0.5))
+        await pilot.advance(5)
+        assert pilot.feedback.warnings == []
+        assert all(pilot.feedback.reached(f"b:g{number}:stroke") for number in range(4))
+
+
+async def test_a_gesture_that_takes_over_waits_for_a_stroke_that_is_predicted_later(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 1.5)
+    later = '<gesture id="g2" lexeme="OFFER" mode="RIGHT_HAND" stroke="anticipators:t:hit+0.8"/>'
+    pilot.block("b", BEAT.format(1, "anticipators:t:hit") + later)
+    await pilot.advance(0.3)
+    pilot.predict("t", "hit", 2.0)
+    await pilot.advance(4)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("b:g1:stroke") == pytest.approx(2.0)
+    assert told.time("b:g2:stroke") == pytest.approx(2.8)
+    assert told.time("b:g1:relax") <= told.time("b:g2:start")
+
+
+async def test_beats_too_close_for_one_hand_are_played_by_both_or_refused(pilot: RealizerPilot) -> None:
+    pilot.block("b", BEAT.format(0, 1) + '<gesture id="g1" lexeme="BEAT" stroke="1.2"/>' + BEAT.format(2, 1.1))
+    await pilot.advance(4)
+    assert pilot.feedback.reached("b:g0:stroke")
+    assert pilot.feedback.reached("b:g1:stroke")
+    assert pilot.feedback.warnings == [("b:g2", "IMPOSSIBLE_TO_SCHEDULE")]
+
+
+async def test_an_arm_whose_end_is_tied_is_not_taken_over(pilot: RealizerPilot) -> None:
+    pilot.block("b", BEAT.format(0, 1).replace("/>", ' end="2.2"/>') + BEAT.format(1, 1.6))
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == [("b:g1", "IMPOSSIBLE_TO_SCHEDULE")]
+    assert pilot.feedback.time("b:g0:end") == pytest.approx(pilot.feedback.time("b:start") + 2.2)
