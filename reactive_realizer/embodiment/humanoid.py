@@ -104,7 +104,7 @@ class Humanoid:
         added = (Layer(LayerKind.ADDITIVE, turned),) if turned else ()
         composed = compose(self.avatar.skeleton, (*layers, *added))
         smooth = self._inertialization(composed.shown, time)
-        self._passed, self._time, self._wanted = time - self._time, time, smooth
+        self._passed, self._time, self._wanted = time - self._time, time, composed.shown
         if self._limit is None:
             self._limit, self._shown = SpeedLimit(smooth), smooth
         else:
@@ -158,7 +158,10 @@ class Humanoid:
         return self._time
 
     def gap(self, joint: str) -> float:
-        """Return the distance between the positions of a joint as composed and as moved, m; speed limits cause it."""
+        """Return the distance between the positions of a joint as composed and as moved, m.
+
+        Speed limits cause it, and offsets that still decay, such as those of a trunk that the joint hangs on.
+        """
         wanted, limited = (body.transform(joint).position for body in (self._wanted, self._limited))
         return distance(wanted, limited)
 

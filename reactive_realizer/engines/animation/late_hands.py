@@ -46,12 +46,13 @@ class LateHands:
     def warnings(self) -> Iterator[Warn]:
         """Yield a warning for each hand that is late in the frame shown last, once for every point.
 
-        Motions with a fault are left out: their hands may be elsewhere because of it.
+        Motions with a fault are left out: their hands may be elsewhere because of it. So are those that have ended: the
+        frame shows others.
         """
         shown = [each for each in self._passed if each[0] <= self._humanoid.time]
         self._passed = [each for each in self._passed if each[0] > self._humanoid.time]
         for _, unit, sync in shown:
-            if unit.motion.fault is None:
+            if unit.motion.fault is None and unit.live:
                 yield from self._late(unit, sync)
 
     def _late(self, unit: AnimationUnit, sync: str) -> Iterator[Warn]:
