@@ -215,11 +215,11 @@ class Anticipator(ABC):
         if name not in self.heard:
             raise self._unknown(f"{name} with a text")
 
-    def check_prediction(self) -> None:
-        """Check whether it accepts a client's prediction, before the prediction enters.
+    def check_prediction(self, point: str) -> None:
+        """Check whether it accepts a client's prediction of a point, before the prediction enters.
 
         Raises:
-            RealizerError: it makes its own predictions.
+            RealizerError: "predicts-itself", or "unknown-point".
         """
         raise RealizerError(PredictsItself(anticipator=self.id, kind=self.kind))
 
@@ -255,17 +255,41 @@ class Anticipator(ABC):
 
 
 class Remote(Anticipator):
-    """Predicts what clients predict; its points are those that they name."""
+    """Predicts what clients predict.
+
+    Each of its points is a single moment, which its name keeps.
+
+    Args:
+        context: of the anticipator.
+        points: names of its points; without any, they are those that clients name.
+    """
 
     kind = "remote"
+
+    def __init__(self, context: AnticipatorContext, points: tuple[str, ...] = ()) -> None:
+        super().__init__(context)
+        self.points = points
 
     async def predictions(self) -> Predictions:
         """What clients predict."""
         async for event in self.inputs:
             yield event.name, event.value
 
-    def check_prediction(self) -> None:
-        """Accept every prediction."""
+    def check_prediction(self, point: str) -> None:
+        """Accept predictions of its points.
+
+        Raises:
+            RealizerError: "unknown-point".
+        """
+        self.check_point(point, f"anticipators:{self.id}:{point}")
+
+    def has(self, point: str) -> bool:
+        """Whether clients may predict a point."""
+        return not self.points or point in self.points
+
+    def recurs(self, point: str) -> bool:
+        """No point recurs."""
+        return False
 
     def _unknown(self, event: str) -> RealizerError:
         return RealizerError(UnknownEvent(anticipator=self.id, event=event, known=("none (it takes predictions)",)))

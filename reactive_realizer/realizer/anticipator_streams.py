@@ -24,6 +24,10 @@ _TURNS = 5
 """Turns of the event loop in which a stream may react within the tick; one that only waits here takes one."""
 
 
+_MOST = 10_000
+"""Predictions of a stream in a tick, after which it fails: one that never waits would stop everything."""
+
+
 class AnticipatorFailed(PlayingFault):
     """An anticipator whose stream has failed."""
 
@@ -52,6 +56,14 @@ class UndeclaredPoint(Fault):
     template = "it predicted '{point}', which is not one of its points: {known}"
     point: str
     known: tuple[str, ...]
+
+
+class TooManyPredictions(Fault):
+    """A stream that does not wait between its predictions."""
+
+    code = "too-many-predictions"
+    template = "it has made {limit} predictions in one tick; a stream has to wait for something between them"
+    limit: int
 
 
 class AnticipatorStreams:
@@ -162,7 +174,15 @@ class AnticipatorStreams:
         self._tasks[anticipator.id] = self._group.create_task(_run(anticipator, take), name=name)
 
     def _take(self, rank: int, predicted: Predicted) -> None:
-        self._predicted.setdefault(rank, []).append(predicted)
+        """Note a prediction of a stream.
+
+        Raises:
+            RealizerError: "too-many-predictions".
+        """
+        noted = self._predicted.setdefault(rank, [])
+        if len(noted) == _MOST and not isinstance(predicted, StreamFailure):
+            raise RealizerError(TooManyPredictions(limit=_MOST))
+        noted.append(predicted)
 
     def _forecast(self, anticipator: Anticipator, sync: str) -> Time:
         try:

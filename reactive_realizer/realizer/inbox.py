@@ -76,10 +76,10 @@ class Inbox:
         """Check whether a prediction of a point can enter after all waiting inputs.
 
         Raises:
-            RealizerError: "predicts-itself", or "too-many-names" if there would be too many points that are needed.
+            RealizerError: "predicts-itself", "unknown-point", or "too-many-names" if there would be too many points that are needed.
         """
         if anticipator in self._board.anticipators:
-            self._board.anticipators[anticipator].check_prediction()
+            self._board.anticipators[anticipator].check_prediction(sync)
         key, limit = anticipator_key(anticipator, sync), self._limits.predicted_points
         if self._board.get(key) is not None or key in self._new_points:
             return
@@ -118,7 +118,7 @@ class Inbox:
             case Prediction(id_, sync, time):
                 if time is not None and not isfinite(time):
                     raise RealizerError(NotANumber())
-                self._anticipator(id_).check_prediction()
+                self._anticipator(id_).check_prediction(sync)
                 return id_, AnticipatorEvent(sync, time, None, now)
             case Event(id_, name, value, None):
                 self._anticipator(id_).check(name, value)

@@ -115,10 +115,10 @@ class AnticipatorContract(ABC):
     def test_only_a_remote_anticipator_takes_predictions_of_others(self) -> None:
         with _Watched(self) as watched:
             if isinstance(watched.anticipator, Remote):
-                watched.anticipator.check_prediction()
+                watched.anticipator.check_prediction("hit")
             else:
                 with pytest.raises(RealizerError, match=watched.anticipator.kind):
-                    watched.anticipator.check_prediction()
+                    watched.anticipator.check_prediction("hit")
 
     def test_its_options_are_numbers_and_names_with_defaults(self) -> None:
         with _Watched(self) as watched:

@@ -76,9 +76,9 @@ def test_an_anticipator_is_asked_for_a_counted_point_that_is_named_for_the_first
 
 
 def test_an_anticipator_with_its_own_predictions_accepts_none_from_outside(clock: Clockwork) -> None:
-    Remote(AnticipatorContext("partner", TickClock())).check_prediction()
+    Remote(AnticipatorContext("partner", TickClock())).check_prediction("hit")
     with pytest.raises(RealizerError, match="'clock' is a clockwork: it makes its own predictions"):
-        clock.check_prediction()
+        clock.check_prediction("hit")
 
 
 def test_one_point_has_one_peg(board: PegBoard) -> None:

@@ -360,3 +360,38 @@ async def test_any_kind_of_number_is_recorded_as_seconds(opened: Open) -> None:
         await pilot.advance(1)
         (time,) = [each.time for inputs in recorded for each in inputs.predicted if isinstance(each, Prediction)]
         assert type(time) is float
+
+
+class Endless(Anticipator):
+    """Never waits."""
+
+    kind = "endless"
+    points = ("hit",)
+
+    async def predictions(self) -> Predictions:
+        while True:
+            yield "hit", self.clock.now() + 1.0
+
+
+async def test_a_stream_that_never_waits_fails_and_everything_else_plays(opened: Open) -> None:
+    async with opened(Endless, Ticking) as pilot:
+        pilot.block("b", NOD.format("ticking:tock"))
+        await pilot.advance(2)
+        assert ("anticipators:endless", "EXECUTION_FAILURE") in pilot.feedback.warnings
+        assert "10000 predictions in one tick" in pilot.feedback.of("warningFeedback")[0].text
+        assert pilot.feedback.time("b:h:start") == 1.0
+
+
+async def test_a_mistyped_point_of_a_remote_anticipator_with_declared_points_is_told(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text('[character.alice]\n[anticipator.partner]\nkind = "remote"\npoints = ["hit"]\n')
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        with pytest.raises(RealizerError, match="the anticipator 'partner' has no point 'hti'; it has hit"):
+            pilot.realizer.check_prediction("partner", "hti")
+        pilot.predict("partner", "hit", 0.5)
+        pilot.block("b", NOD.format("partner:hti"))
+        pilot.block("c", NOD.format("partner:hit"))
+        await pilot.advance(1)
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert "the anticipator 'partner' has no point 'hti'; it has hit" in warning.text
+        assert pilot.feedback.time("c:h:start") == 0.5

@@ -107,7 +107,7 @@ class Littering(Clock):
 class Gullible(Clock):
     """Takes predictions of others although it makes its own."""
 
-    def check_prediction(self) -> None:
+    def check_prediction(self, point: str) -> None:
         pass
 
 
