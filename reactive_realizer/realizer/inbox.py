@@ -76,7 +76,8 @@ class Inbox:
         """Check whether a prediction of a point can enter after all waiting inputs.
 
         Raises:
-            RealizerError: "predicts-itself", "unknown-point", or "too-many-names" if there would be too many points that are needed.
+            RealizerError: "predicts-itself", "unknown-point", or "too-many-names" if there would be too many points
+                that are needed.
         """
         if anticipator in self._board.anticipators:
             self._board.anticipators[anticipator].check_prediction(sync)
