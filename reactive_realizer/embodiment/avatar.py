@@ -1,10 +1,8 @@
 """An avatar file: its skeleton in H-Anim terms, its morph targets, and the conversion of poses to its own bones."""
 
-import json
 import math
-import struct
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,47 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.body import Skeleton
+from reactive_realizer.embodiment.glb import BadAvatar, read_scene
 from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.mixamo import alignment
+from reactive_realizer.embodiment.morph_targets import MorphTargets, morph_targets_of
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, between, conjugate, multiply, rotate
 from reactive_realizer.embodiment.rig import Bone, bones_of
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, unit
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.file_cache import remembered
-
-_HEADER = struct.Struct("<4sII")
-_CHUNK = struct.Struct("<I4s")
-_LONGEST_SCENE = 16 * 1024 * 1024
-"""Size limit of the JSON chunk, bytes. That of a detailed avatar has less than one MiB."""
-
-
-def read_glb(path: Path) -> dict[str, Any]:
-    """Read the scene description of a binary glTF 2.0 file: its JSON chunk (Khronos, chapter "Binary glTF Layout").
-
-    Meshes and images are not read.
-
-    Raises:
-        RealizerError: "bad-avatar": the file is not binary glTF 2.
-    """
-    with path.open("rb") as file:
-        header = file.read(_HEADER.size + _CHUNK.size)
-        if len(header) < _HEADER.size + _CHUNK.size:
-            raise RealizerError(BadAvatar(file=path.name, reason="too short for a GLB file"))
-        magic, version, size = _HEADER.unpack_from(header)
-        length, kind = _CHUNK.unpack_from(header, _HEADER.size)
-        if magic != b"glTF" or version != 2 or kind != b"JSON" or length > size:
-            raise RealizerError(BadAvatar(file=path.name, reason="not a binary glTF 2 file"))
-        if length > _LONGEST_SCENE:
-            raise RealizerError(BadAvatar(file=path.name, reason=f"its JSON chunk is over {_LONGEST_SCENE} bytes"))
-        text = file.read(length)
-    try:
-        scene = json.loads(text)
-    except (ValueError, RecursionError) as problem:
-        raise RealizerError(BadAvatar(file=path.name, reason=f"its JSON chunk cannot be read: {problem}")) from problem
-    if not isinstance(scene, dict):
-        raise RealizerError(BadAvatar(file=path.name, reason="its JSON chunk is not an object"))
-    return scene
-
 
 SKIN_COLORS = ("skinBlush", "skinPallor")
 """Weights that color the skin, beside those of morph targets."""
@@ -63,15 +29,8 @@ _NEEDED = (ROOT, "skullbase", "l_shoulder", "l_elbow", "l_wrist", "r_shoulder", 
 _FAR_FROM_PARENT = frozenset({"elbow", "wrist", "knee", "ankle", "index2", "index3"})
 _SHORTEST = 1e-3
 _IN_T_POSE = 1e-3  # rad
-
-
-class BadAvatar(Fault):
-    """A GLB file that cannot be used as an avatar."""
-
-    code = "bad-avatar"
-    template = "{file} cannot be used as an avatar: {reason}"
-    file: str
-    reason: str
+_COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_texture_basisu"}
+"""Extensions of glTF for which the viewer has no decoder."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,6 +43,8 @@ class Avatar:
             skin.
         skeleton: in the H-Anim default pose, J joints; bones without an H-Anim joint are left out.
         path: of its file; None if it was not read from one.
+        targets: of its file.
+        notes: what of its file is left out or cannot be shown, as sentences.
     """
 
     bones: tuple[Bone, ...]
@@ -93,6 +54,8 @@ class Avatar:
     _to_bones: NDArray[np.float64]
     _at_rest: NDArray[np.float64]
     path: Path | None = None
+    targets: MorphTargets = field(default_factory=MorphTargets)
+    notes: tuple[str, ...] = ()
 
     @staticmethod
     @remembered
@@ -102,14 +65,15 @@ class Avatar:
         Raises:
             RealizerError: "bad-avatar": not a GLB file, no skin, missing bones, or bones without a usable rest pose.
         """
-        scene = read_glb(path)
+        scene = read_scene(path)
         try:
-            bones, morphs = bones_of(scene), (*_morphs(scene), *SKIN_COLORS)
+            bones, targets = bones_of(scene), morph_targets_of(scene)
         except ValueError as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=str(problem))) from problem
         except (LookupError, TypeError, AttributeError) as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=f"unusable skin or mesh ({problem!r})")) from problem
-        return replace(Avatar.of_bones(bones, morphs, path.name), path=path)
+        avatar = Avatar.of_bones(bones, (*targets.named, *SKIN_COLORS), path.name)
+        return replace(avatar, path=path, targets=targets, notes=(*targets.notes, *_unshown(scene)))
 
     @classmethod
     def of_bones(cls, bones: Sequence[Bone], morphs: Sequence[str], file: str) -> "Avatar":
@@ -183,12 +147,10 @@ class Avatar:
         return out
 
 
-def _morphs(scene: dict[str, Any]) -> tuple[str, ...]:
-    for mesh in scene.get("meshes", ()):
-        names = mesh.get("extras", {}).get("targetNames")
-        if names:
-            return tuple(map(str, names))
-    return ()
+def _unshown(scene: Mapping[str, Any]) -> Iterator[str]:
+    needed = set(map(str, scene.get("extensionsRequired") or ())) & _COMPRESSIONS
+    if needed:
+        yield f"the page cannot show it, because it is compressed with {', '.join(sorted(needed))}; export it without"
 
 
 def _link(bones: Sequence[Bone], index: int) -> tuple[str | None, Vec3]:

@@ -1,6 +1,5 @@
 """The shape of an avatar's face: where its vertices are, and where its morph targets move them."""
 
-import struct
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,13 +8,10 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive_realizer.embodiment.avatar import BadAvatar, read_glb
+from reactive_realizer.embodiment.glb import BadAvatar, read_binary
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.errors import RealizerError
 
-_JSON_LENGTH_AT = 12
-_CHUNKS_AT = 20
-_CHUNK_HEADER = 8
 _TYPES = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 """Component types of glTF 2.0 (chapter "Accessor Data Types") that positions and their indices use."""
 
@@ -77,10 +73,7 @@ class _Accessors:
     """The arrays of a GLB file."""
 
     def __init__(self, path: Path) -> None:
-        self._scene = read_glb(path)
-        data = path.read_bytes()
-        (length,) = struct.unpack_from("<I", data, _JSON_LENGTH_AT)
-        self._data = data[_CHUNKS_AT + length + _CHUNK_HEADER :]
+        self._scene, self._data = read_binary(path)
 
     def faces(self) -> Iterator[tuple[Sequence[str], Sequence[dict[str, Any]]]]:
         """Yield the meshes with morph targets: names of the targets, and parts."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.face_map import NO_STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.inertialization import Inertialization
 from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
@@ -56,6 +57,7 @@ class Humanoid:
         heading: turn to its left, rad; 0 faces +z.
         weight: kg; None for the usual one of its stature.
         simulation_steps: in which it is simulated in each tick; None for steps of the usual time.
+        stand_ins: what its face shows instead of blend shapes that it lacks.
     """
 
     def __init__(
@@ -65,8 +67,10 @@ class Humanoid:
         heading: float = 0.0,
         weight: float | None = None,
         simulation_steps: int | None = None,
+        stand_ins: StandIns = NO_STAND_INS,
     ) -> None:
         self.avatar = avatar
+        self.face = FaceMap(avatar, stand_ins)
         self.weight, self.simulation_steps = weight, simulation_steps
         self.place = Place(position, heading)
         """Where it stands; the next move takes place there."""
@@ -100,7 +104,7 @@ class Humanoid:
         Then come `simulate`, if forces move the figure, and `look`: figures look at each other, so all of them move
         first.
         """
-        turned = turns(_sum(faces), self._faced)
+        turned = turns(self.face(_sum(faces)), self._faced)
         added = (Layer(LayerKind.ADDITIVE, turned),) if turned else ()
         composed = compose(self.avatar.skeleton, (*layers, *added))
         smooth = self._inertialization(composed.shown, time)
@@ -144,7 +148,7 @@ class Humanoid:
         if self._before is not None:
             looking = slowed(self._before.pose, looking, self._passed)
         self._shown = body.posed(looking)
-        weights = self._weights(with_lids(face, lids, blink))
+        weights = self._weights(self.face(with_lids(face, lids, blink)))
         return Frame(self._time, self._root(self._shown.root), self._rotations(self._shown.pose), weights)
 
     @property

@@ -59,6 +59,8 @@ class _Rig:
     """The nodes of a scene at rest, in the axes of the file."""
 
     def __init__(self, scene: Mapping[str, Any]) -> None:
+        if not scene.get("skins"):
+            raise ValueError("it has no skin, so no bones move it")
         self._nodes = scene["nodes"]
         self._parents = {child: i for i, node in enumerate(self._nodes) for child in node.get("children", ())}
         skinned = dict.fromkeys(joint for skin in scene["skins"] for joint in skin["joints"])

@@ -119,10 +119,16 @@ class LiveScene:
 
     def _character(self, index: int, id_: str) -> Mapping[str, object]:
         avatar = self.realizer.characters[id_].humanoid.avatar
+        targets = {
+            name: [each._asdict() for each in avatar.targets.named[name]]
+            for name in avatar.morphs
+            if name in avatar.targets.unnamed
+        }
         return {
             "id": id_,
             "index": index,
             "avatar": "/avatars/" + self.scene.avatars[id_].removeprefix("avatars/"),
             "joints": [bone.name for bone in avatar.bones],
             "morphs": list(avatar.morphs),
+            **({"targets": targets} if targets else {}),
         }

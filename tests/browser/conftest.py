@@ -66,11 +66,11 @@ def serve(browser: Browser, tmp_path: Path) -> Serve:
     """Serves the scene of a human file."""
 
     @asynccontextmanager
-    async def open_(human: str, voice: str = "text") -> AsyncIterator[ServedScene]:
+    async def open_(human: str, voice: str = "text", assets: tuple[Path, ...] = ()) -> AsyncIterator[ServedScene]:
         file = tmp_path / "human.toml"
         file.write_text(human, encoding="utf-8")
         async with (
-            open_scene(SceneOptions(file, voice)) as scene,
+            open_scene(SceneOptions(file, voice, assets)) as scene,
             served(LiveScene(scene, SystemClock())) as (live, address),
         ):
             served_scene = ServedScene(live, address, browser)

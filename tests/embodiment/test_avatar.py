@@ -155,13 +155,16 @@ TWO_BONES: dict[str, object] = {"skins": [{"joints": [0, 1]}], "meshes": []}
         (glb(b"[" * 1_000_000), "cannot be read: maximum recursion depth"),
         (struct.pack("<4sIII4s", b"glTF", 2, 2**31, 2**30, b"JSON"), "its JSON chunk is over 16777216 bytes"),
         (glb(b"[]"), "not an object"),
-        (glb({"nodes": []}), "unusable skin"),
+        (glb({})[:-1], "cut off: 21 of 22 bytes are there"),
+        (struct.pack("<4sIII4s", b"glTF", 2, 500 * 2**20, 2, b"JSON") + b"{}", "it has 500 MiB; at most 256 are read"),
+        (glb({"nodes": []}), "no skin"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": [None]}), "unusable skin or mesh"),
         (
             glb({"nodes": [{"name": n, "children": [1 - i]} for i, n in enumerate("ab")], **TWO_BONES}),
             "own ancestor",
         ),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0] * 1001}]}), "more than 1000 bones"),
+        (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [7]}], "meshes": []}), "unusable skin or mesh"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": []}), "no bone for skullbase"),
     ],
 )
@@ -172,3 +175,22 @@ def test_an_invalid_avatar_file_is_refused_with_its_name_and_the_reason(
     path.write_bytes(content)
     with pytest.raises(RealizerError, match=rf"wrong\.glb cannot be used as an avatar: .*{reason}"):
         Avatar.read(path)
+
+
+def test_a_large_file_is_refused_before_it_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "huge.glb"
+    path.write_bytes(glb({}))
+    with path.open("r+b") as file:
+        file.truncate(500 * 2**20)
+    with pytest.raises(RealizerError, match=r"huge\.glb cannot be used as an avatar: it has 500 MiB"):
+        Avatar.read(path)
+
+
+def test_what_the_page_cannot_show_is_noted(tmp_path: Path) -> None:
+    path = tmp_path / "small.glb"
+    size = int.from_bytes((AVATARS / "female.glb").read_bytes()[12:16], "little")
+    scene = json.loads((AVATARS / "female.glb").read_bytes()[20 : 20 + size])
+    path.write_bytes(glb({**scene, "extensionsRequired": ["KHR_draco_mesh_compression"]}))
+    assert Avatar.read(path).notes == (
+        "the page cannot show it, because it is compressed with KHR_draco_mesh_compression; export it without",
+    )

@@ -1,4 +1,5 @@
 import {
+  Bone,
   Box3,
   type Material,
   Matrix4,
@@ -6,17 +7,17 @@ import {
   MeshLambertMaterial,
   MeshStandardMaterial,
   type Object3D,
-  PropertyBinding,
   Quaternion,
   Texture,
   Vector3,
 } from "three";
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import type { Pose } from "./binary";
 import type { Figure } from "./framing";
-import type { Character, Position } from "./protocol";
+import type { Character, MorphTarget, Position } from "./protocol";
 import { isSkinColor, Skin } from "./skin";
+import { Springs } from "./springs";
 import { type Leg, type Seat, seatOf } from "./stool";
 import type { Quality } from "./viewport";
 
@@ -56,6 +57,7 @@ export class Avatar {
     private readonly bones: (Object3D | undefined)[],
     private readonly slots: MorphSlot[][],
     private readonly skin: Skin,
+    private readonly springs: Springs | null,
   ) {
     this.root = bones.find((bone) => !bones.includes(bone?.parent ?? undefined));
     if (this.root?.parent) this.fromWorld.copy(this.root.parent.matrixWorld).invert();
@@ -66,17 +68,25 @@ export class Avatar {
 
   /** Loads the character's model; rejects when it cannot be loaded. */
   static async load(character: Character, quality: Quality): Promise<Avatar> {
-    const { scene } = await new GLTFLoader().loadAsync(character.avatar);
+    const gltf = await new GLTFLoader().loadAsync(character.avatar);
+    const { scene } = gltf;
     scene.updateMatrixWorld(true);
     const meshes = meshesOf(scene);
     for (const mesh of meshes) prepare(mesh, quality);
-    const bones = character.joints.map((name) => scene.getObjectByName(PropertyBinding.sanitizeNodeName(name)));
-    const slots = character.morphs.map((name) => slotsOf(meshes, name));
-    return new Avatar(scene, character, bones, slots, new Skin(meshes));
+    const nodes = nodesOf(gltf);
+    const bones = character.joints.map((name) => nodes.get(name));
+    const slots = character.morphs.map((name) => {
+      const targets = character.targets?.[name];
+      return targets === undefined ? slotsOf(meshes, name) : slotsAt(gltf, meshes, targets);
+    });
+    return new Avatar(scene, character, bones, slots, new Skin(meshes), await Springs.of(gltf));
   }
 
-  /** Applies a pose: the root's position, rotations to the bones, weights to the morphs and to the colors of the skin. */
-  apply(pose: Pose): void {
+  /**
+   * Applies a pose as of a time, s: the root's position, rotations to the bones, weights to the morphs and to the colors
+   * of the skin. Hair and clothes follow.
+   */
+  apply(pose: Pose, time: number): void {
     this.root?.position.fromArray(pose.root).applyMatrix4(this.fromWorld);
     for (const [i, bone] of this.bones.entries()) bone?.quaternion.fromArray(pose.rotations, 4 * i);
     for (const [i, slots] of this.slots.entries()) {
@@ -85,6 +95,7 @@ export class Avatar {
     for (const [i, name] of this.character.morphs.entries()) {
       if (isSkinColor(name)) this.skin.color(name, pose.weights[i] ?? 0);
     }
+    this.springs?.update(time);
   }
 
   /** Its crown and its root in the world, m. */
@@ -150,12 +161,37 @@ function disposeMaterial(material: Material): void {
   material.dispose();
 }
 
+/** The nodes of a file by their names in it, which the loader changes; a bone has precedence over what shares its name. */
+function nodesOf({ scene, parser }: GLTF): Map<string, Object3D> {
+  const { nodes = [] } = parser.json as { nodes?: { name?: string }[] };
+  const found = new Map<string, Object3D>();
+  scene.traverse((object) => {
+    const index = parser.associations.get(object)?.nodes;
+    if (index === undefined) return;
+    const name = nodes[index]?.name ?? `node ${index}`;
+    const known = found.get(name);
+    if (known === undefined || (object instanceof Bone && !(known instanceof Bone))) found.set(name, object);
+  });
+  return found;
+}
+
 function slotsOf(meshes: Mesh[], morph: string): MorphSlot[] {
   return meshes.flatMap((mesh) => {
     const index = mesh.morphTargetDictionary?.[morph];
     const influences = mesh.morphTargetInfluences;
     return index === undefined || influences === undefined ? [] : [{ influences, index }];
   });
+}
+
+/** The entries of morph targets that a file does not name: the primitives of a mesh of the file are meshes here. */
+function slotsAt({ parser }: GLTF, meshes: Mesh[], targets: MorphTarget[]): MorphSlot[] {
+  return targets.flatMap(({ mesh: index, target }) =>
+    meshes.flatMap((mesh) => {
+      const influences = mesh.morphTargetInfluences;
+      const found = parser.associations.get(mesh)?.meshes === index && influences?.[target] !== undefined;
+      return found ? [{ influences, index: target }] : [];
+    }),
+  );
 }
 
 function prepare(mesh: Mesh, quality: Quality): void {

@@ -77,7 +77,7 @@ export class Characters {
     for (const { character, playout, face, avatar, stool } of this.byIndex.values()) {
       const pose = playout.sample(time, face.at(time, heard(character.id)));
       if (pose === null || avatar === null) continue;
-      avatar.apply(pose);
+      avatar.apply(pose, time);
       if (avatar.object.parent === null) this.scene.add(avatar.object);
       stool.show(avatar.seat);
     }

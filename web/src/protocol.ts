@@ -228,6 +228,19 @@ export interface Character {
   avatar: string;
   joints: string[];
   morphs: string[];
+  /**
+   * Where the morph targets are that a loader of glTF does not find by the names of its meshes' morph targets (extras.targetNames): name of a morph -> indices of meshes and of their targets, which all take its weight.
+   */
+  targets?: {
+    [k: string]: MorphTarget[];
+  };
+}
+/**
+ * A morph target of a GLB file: the index of its mesh among the meshes of the file, and its own in that mesh.
+ */
+export interface MorphTarget {
+  mesh: number;
+  target: number;
 }
 /**
  * A message of BML feedback, with the time of the tick that reported it.

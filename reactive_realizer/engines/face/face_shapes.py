@@ -93,7 +93,7 @@ class FaceShapes:
         expressions: lexemes and action units.
         faps: facial animation parameters.
         wheel: of emotions.
-        morphs: of the avatar.
+        morphs: names of the weights that show in the face.
         asset: finds a file by name.
     """
 
@@ -116,7 +116,7 @@ class FaceShapes:
             expressions,
             _fap_table(context.asset(_FAPS), avatar),
             EmotionWheel.read(context.asset(_WHEEL), expressions.lexemes),
-            avatar.morphs,
+            context.humanoid.face.names,
             context.asset,
         )
 

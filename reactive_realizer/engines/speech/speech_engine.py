@@ -61,7 +61,10 @@ class SpeechEngine(SoundEngine):
         self._notes = SpeechNotes()
         avatar = context.humanoid.avatar
         files = context.bindings.get("visemes", ())
-        self._visemes = VisemeBinding.read(files, avatar.morphs, context.asset, avatar.skeleton.joints)
+        face = context.humanoid.face
+        self._visemes = VisemeBinding.read(
+            files, face.own, context.asset, avatar.skeleton.joints, tuple(face.stand_ins)
+        )
         self._track: LipSyncTrack | None = None
 
     def check(self, behavior: Behavior) -> Collection[str] | None:

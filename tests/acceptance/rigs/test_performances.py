@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.embodiment.vector import Vec3, dot, subtract, unit
+from reactive_realizer.embodiment.vector import Vec3, distance, dot, scale, subtract, unit
 from reactive_realizer.testing.pilot import open_pilot
 
 from .rigs import Rig, bone_places, write
@@ -59,3 +59,21 @@ async def test_the_feet_that_are_shown_stay_where_they_stand(tmp_path: Path, rig
     for foot in ("l_ankle", "r_ankle"):
         assert max(math.dist(places[foot], first[foot]) for _, places in frames) < 0.01
     assert max(math.dist(places["l_wrist"], first["l_wrist"]) for _, places in frames) > 0.2
+
+
+SELF = '<gesture id="g" lexeme="SELF" mode="RIGHT_HAND" start="0" stroke="1.5" relax="3"/>'
+
+
+async def hand_before_chest(tmp_path: Path, rig: Rig) -> Vec3:
+    """The wrist as seen from the chest while it points to the speaker, in relation to the size of the figure."""
+    _, places = min(await performed(tmp_path, rig, SELF), key=lambda frame: abs(frame[0] - 2.0))
+    return scale(subtract(places["r_wrist"], places["vt6"]), 1.0 / rig.size)
+
+
+async def test_a_hand_on_the_heart_is_on_the_heart_of_figures_of_any_size(tmp_path: Path) -> None:
+    near = {"small": 0.01, "Mixamo in centimeters": 0.001, "tall": 0.04}
+    hands = {}
+    for name, rig in {"own": Rig(), **{name: RIGS[name] for name in near}}.items():
+        (tmp_path / name).mkdir()
+        hands[name] = await hand_before_chest(tmp_path / name, rig)
+    assert [name for name in near if distance(hands[name], hands["own"]) > near[name]] == []

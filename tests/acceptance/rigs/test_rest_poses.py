@@ -112,6 +112,18 @@ def test_two_skins_are_one_skeleton(tmp_path: Path) -> None:
     assert set(Avatar.read(write(tmp_path / "two.glb", scene)).skeleton.joints) == set(OWN.skeleton.joints)
 
 
+def test_of_two_figures_in_a_file_the_first_is_used(tmp_path: Path) -> None:
+    scene = Rig().scene()
+    (skin,), nodes = scene["skins"], scene["nodes"]
+    first = len(nodes)
+    others = [{**node, "children": [first + i for i in node.get("children", ())]} for node in nodes]
+    others[0] = {**others[0], "translation": [2.0, 0.0, 0.0]}
+    both = {**scene, "nodes": [*nodes, *others], "skins": [skin, {"joints": [first + i for i in skin["joints"]]}]}
+    avatar, alone = (Avatar.read(write(tmp_path / "both.glb", each)) for each in (both, scene))
+    assert avatar.skeleton == alone.skeleton
+    assert avatar.bones == alone.bones
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [

@@ -16,7 +16,7 @@ from reactive_realizer.embodiment.quaternion import (
     rotate,
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm, Leg
-from reactive_realizer.embodiment.vector import UP, Vec3, add, length, subtract
+from reactive_realizer.embodiment.vector import UP, Vec3, add, length, scale, subtract
 from reactive_realizer.engines.animation.procedural.tracks import Formulas, TrackPose, negated, parent_rotation
 
 EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
@@ -35,6 +35,10 @@ _MISSED = 0.01
 # The same for goals relative to a shoulder, as a share of the arm's reach. They were measured on another arm, and this
 # one performs the same motion at its own size. Published files are for arms that are up to half as long again.
 _STRETCHED = 0.5
+
+# Reach of the arms that perform a local motion as its file says, m: those of the package's avatars, on whose chests the
+# hands lie as in the file. Shorter and longer arms perform it at their own size.
+_USUAL_REACH = (0.43, 0.52)
 
 # A shorter bone has no direction, m.
 _NO_BONE = 1e-4
@@ -91,8 +95,9 @@ class EffectorTrack:
         first, middle, end = self.chain
         now = body()
         x, y, z, swivel = values
-        goal = (x, y, z) if self.local else _seen_from(first, (x, y, z), now)
         limb = self.limb.of(now.skeleton, self.side)
+        size = _size(limb) if self.independent else 1.0
+        goal = scale((x, y, z), size) if self.local else _seen_from(first, (x, y, z), now)
         upper, lower = limb.solve(goal, swivel)
         missing = limb.missed(goal)
         missed = (end, missing) if missing > (_STRETCHED * limb.reach if self.local else _MISSED) else None
@@ -114,6 +119,12 @@ class EffectorTrack:
         _, middle, end = self.chain
         whole = all(joint in skeleton for joint in self.chain)
         return self if whole and min(length(skeleton.offset(joint)) for joint in (middle, end)) > _NO_BONE else None
+
+
+def _size(arm: Arm | Leg) -> float:
+    """Return the size at which an arm performs a local motion."""
+    shortest, longest = _USUAL_REACH
+    return arm.reach / min(max(arm.reach, shortest), longest)
 
 
 def _seen_from(joint: str, place: Vec3, body: Body) -> Vec3:

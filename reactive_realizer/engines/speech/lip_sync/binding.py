@@ -1,7 +1,7 @@
 """The viseme binding of an avatar (thesis 8.10, VisemeBinding): its mouth shape for each sound.
 
-The format is documented in docs/lipsync.md; assets/visemes contains the bindings for ARKit's blend shapes and for the
-visemes of Oculus as morph targets.
+The format is documented in docs/lipsync.md; assets/visemes contains the bindings for ARKit's blend shapes, the
+visemes of Oculus and the vowels of VRM.
 """
 
 import re
@@ -15,9 +15,13 @@ from typing import Self
 from reactive_realizer.engines.speech.lip_sync.binding_file import read_binding_file
 from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, VISEMES, Articulator, MouthShape
 
-_ARKIT, _OCULUS, _PHONEMES = "visemes/arkit.toml", "visemes/oculus.toml", "visemes/phonemes.toml"
-_ARKIT_MORPH, _OCULUS_MORPH = "jawOpen", "viseme_aa"
-"""Morph targets by which the two sets are recognized."""
+_ARKIT, _PHONEMES = "visemes/arkit.toml", "visemes/phonemes.toml"
+_RECOGNIZED = {
+    _ARKIT: {"jawOpen", "mouthPucker"},
+    "visemes/oculus.toml": {"viseme_aa", "viseme_U"},
+    "visemes/vrm.toml": {"aa", "ou"},
+}
+"""The package's files, in order of precedence, and the weights by which it is recognized that an avatar has a set."""
 
 
 @dataclass(frozen=True)
@@ -41,26 +45,29 @@ class VisemeBinding:
         morphs: Collection[str],
         asset: Callable[[str], Path],
         joints: Collection[str] = (),
+        stand_ins: Collection[str] = (),
     ) -> Self:
         """Reads the binding of an avatar.
 
-        Entries of earlier files take precedence. The last files are those in assets/visemes: for the morph targets of
+        Entries of earlier files take precedence. The last files are those in assets/visemes: for the face of
         the avatar, and for phonemes. What they say of morph targets that the avatar does not have is left out. A file
         with articulators describes all visemes: of the files after it, only the phonemes count.
 
         Args:
             files: of the character and of the avatar, in order of precedence.
-            morphs: names of the avatar's morph targets.
+            morphs: names of the weights of the avatar's face (`FaceMap.own`).
             asset: finds an asset by name.
             joints: of its skeleton.
+            stand_ins: names of weights that it shows by others (`FaceMap.stand_ins`).
 
         Raises:
             RealizerError: "bad-visemes": a file cannot be used, or names something that the avatar does not have.
             OSError: a file cannot be read.
         """
-        standard = _OCULUS if _OCULUS_MORPH in morphs and _ARKIT_MORPH not in morphs else _ARKIT
-        read = [read_binding_file(file, morphs, joints) for file in files]
-        read += [read_binding_file(asset(name), morphs, joints, shared=True) for name in (standard, _PHONEMES)]
+        standard = standard_binding(morphs)
+        shown = (*morphs, *stand_ins)
+        read = [read_binding_file(file, shown, joints) for file in files]
+        read += [read_binding_file(asset(name), shown, joints, shared=True) for name in (standard, _PHONEMES)]
         complete = next(rank for rank, file in enumerate(read) if file.articulators)
         articulators = read[complete].articulators
         shapes = dict.fromkeys(VISEMES, MouthShape())
@@ -84,3 +91,8 @@ class VisemeBinding:
     def _letters(self) -> re.Pattern[str]:
         longest_first = sorted(self.phonemes, key=len, reverse=True)
         return re.compile("|".join(map(re.escape, longest_first)) or r"(?!)")
+
+
+def standard_binding(morphs: Collection[str]) -> str:
+    """The package's file for a face with weights of some names (`FaceMap.own`)."""
+    return next((file for file, needed in _RECOGNIZED.items() if needed.issubset(morphs)), _ARKIT)

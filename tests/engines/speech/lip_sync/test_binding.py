@@ -13,7 +13,7 @@ from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, VISEMES
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.errors import RealizerError
 
-from .conftest import OCULUS, bound, said
+from .conftest import ARKIT, OCULUS, bound, said
 
 
 def test_a_phoneme_has_its_viseme_and_a_diphthong_has_two(binding: VisemeBinding) -> None:
@@ -65,6 +65,16 @@ def test_an_avatar_with_the_visemes_of_oculus_as_morph_targets_is_bound_to_them(
     assert weights(0.15)["viseme_aa"] == pytest.approx(1.0, abs=0.01)
     assert weights(0.29) == {"viseme_PP": 1.0}
     assert weights(0.6)["viseme_U"] == pytest.approx(1.0, abs=0.01)
+
+
+def test_an_avatar_with_the_vowels_of_vrm_is_bound_to_them_unless_it_has_another_set() -> None:
+    vowels = ("aa", "ih", "ou", "ee", "oh")
+    weights = LipSyncTrack(said(("ɑː", 0.3), ("p", 0.1), ("uː", 0.4)), bound(morphs=vowels)).weights
+    assert weights(0.15)["aa"] == pytest.approx(0.85, abs=0.01)
+    assert not any(weights(0.29).values())
+    assert weights(0.6)["ou"] == pytest.approx(0.9, abs=0.01)
+    assert "viseme_aa" in bound(morphs=(*vowels, *OCULUS)).articulators["mouth"].morphs
+    assert "jaw" in bound(morphs=(*vowels, *ARKIT)).articulators
 
 
 def test_an_avatar_without_the_morph_targets_of_a_mouth_does_not_move_it() -> None:
