@@ -19,7 +19,8 @@ def takeovers(problem: SchedulingProblem, units: tuple[PlanUnit, ...], times: Ma
 
     Two units with the same arm exclude each other from the start of one to its relax. If the stroke of the later one
     comes after that of the earlier one, it need not be lost: it starts at the relax of the earlier one, whose hold is
-    shortened for that, and whose retraction is cut when it starts (`PlanUnit.subsiding`).
+    shortened for that, and whose retraction is cut when it starts (`PlanUnit.subsiding`). An end and a start that are
+    tied stay where they are.
 
     Args:
         problem: of the block.
@@ -30,7 +31,7 @@ def takeovers(problem: SchedulingProblem, units: tuple[PlanUnit, ...], times: Ma
     found: dict[Precedence, tuple[PlanUnit, Timing]] = {}
     for resource in sorted({resource for unit in units for resource in unit.resources}):
         for unit, after in _overlapping([unit for unit in units if resource in unit.resources], times):
-            if Point(unit.behavior.id, "end") not in named:
+            if not named & {Point(unit.behavior.id, "end"), Point(after.behavior.id, "start")}:
                 found.setdefault(_order(unit, after), (after, after.timing_after(unit)))
     return found
 

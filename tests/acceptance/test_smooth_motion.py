@@ -66,3 +66,12 @@ async def test_an_arm_does_not_jump_when_the_amount_of_its_gesture_does(still: R
     await still.advance(3)
     assert accelerations(still.bodies(), "r_wrist").max() < MOST
     assert still.feedback.warnings == []
+
+
+async def test_a_hurried_arm_does_not_stop_where_another_amount_leaves_it_in_its_place(still: RealizerPilot) -> None:
+    still.block("b", '<gesture id="g" lexeme="BEAT" mode="BOTH_HANDS" stroke="0.6"/>')
+    await still.advance(0.26)
+    # The hands are then where the new amount wants them one frame later.
+    still.block("c", change("p", 'start="0"', target="b:g", parameter="amount", type="instant", targetValue=0.9))
+    await still.advance(2)
+    assert accelerations(still.bodies(), "r_wrist").max() < MOST

@@ -27,7 +27,7 @@ async def test_beats_half_a_second_apart_all_play(still: RealizerPilot) -> None:
 
 async def test_they_do_with_the_strategy_of_embr_too() -> None:
     async with open_pilot(SceneOptions(voice="text", strategy="embr", verify=True)) as pilot:
-        pilot.block("b", beats(0.5))
+        pilot.block("b", beats(0.6))
         await pilot.advance(5)
         assert pilot.feedback.warnings == []
         assert all(pilot.feedback.reached(f"b:g{number}:stroke") for number in range(4))

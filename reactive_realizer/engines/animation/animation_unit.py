@@ -52,12 +52,15 @@ _STAYS = frozenset({("strokeStart", "stroke"), ("stroke", "strokeEnd")})
 CHANGE = 0.3
 """Time in which joints go over to a motion with other parameters, s: about as long as a movement takes."""
 
+_TURNING_BACK = 0.06
+"""Time that a hand needs to turn back after a stroke, s, beside the shortest duration of a preparation from rest."""
+
 _RECENT = 0.07
 """A layer shown longer ago says nothing about its speed, s."""
 
 
 _FOLLOWED = 0.012
-"""Turn of a joint in a frame up to which a change of parameters is followed, rad: 0.6 rad/s."""
+"""Difference between the turns of a joint in two frames up to which a change of parameters is followed, rad."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +143,8 @@ class AnimationUnit(PlanUnit):
         self.shown = Layer(motion.kind, {}, 0.0)
         self._played: Mapping[str, float] = {}
         self._changing = False
+        # What it showed before that.
+        self._former = self.shown
         self.shown_at = GlobalTime(-inf)
         # When it was shown before that, with its weight then.
         self._before = self.shown_at, 0.0
@@ -185,7 +190,10 @@ class AnimationUnit(PlanUnit):
         if not isinstance(previous, AnimationUnit):
             return self.timing
         needed = self.motion.preparation(previous.relaxed_body(GlobalTime(0.0), self._context.rest()))
-        return self.timing if needed is None else self._prepared(needed)
+        if needed is None:
+            return self.timing
+        shortest = needed.shortest + _TURNING_BACK
+        return self._prepared(PhaseDuration(max(needed.preferred, shortest), shortest))
 
     def loosen(self, timing: Timing) -> None:
         """Take a `timing_after`."""
@@ -269,11 +277,12 @@ class AnimationUnit(PlanUnit):
         context, motion, before = self._context, self.motion, self.shown
         if self.shown_at < now:
             self._before = self.shown_at, self.shown.weight
+        former, self._former = self._former, before
         phase = self._clock.advance(self, now)
         layer = layer_of(motion, Moment(phase, now, context.body(), context.shown()))
         self.height = height(self)
         self.shown, self.shown_at = self._faded_in(layer, now), now
-        changed = self._parameters_jumped() and _turns(before, layer)
+        changed = self._parameters_jumped() and _jumps(former, before, layer)
         if motion.jumped or changed:
             context.switch(motion.joints, GlobalTime(now + (CHANGE if changed else motion.entrance)))
         return self.shown
@@ -364,10 +373,14 @@ def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, flo
     return _timing(tuple(keys.items()), motion.preferred_duration, shortest, limits, holds, behavior.persistent)
 
 
-def _turns(before: Layer, after: Layer) -> bool:
-    """Return whether a joint turns further between two layers than a change that can be followed."""
-    pairs = ((before.rotations.get(joint, turn), turn) for joint, turn in after.rotations.items())
-    return any(angle(difference(one, two)) > _FOLLOWED for one, two in pairs)
+def _jumps(former: Layer, before: Layer, after: Layer) -> bool:
+    """Return whether the turn of a joint in a frame differs from the one before by more than can be followed."""
+    for joint, turn in after.rotations.items():
+        last = before.rotations.get(joint, turn)
+        first = former.rotations.get(joint, last)
+        if angle(difference(difference(first, last), difference(last, turn))) > _FOLLOWED:
+            return True
+    return False
 
 
 class _Limits(NamedTuple):
