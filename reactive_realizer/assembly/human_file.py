@@ -40,6 +40,9 @@ MOST_BLINKS = 60.0
 FEWEST_STEPS, MOST_STEPS = 2, 20
 """Bounds of the steps in which a physical body is simulated in each tick."""
 
+WIDEST = 100.0
+"""Limit of the radius of a target, m."""
+
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
 """Ids that BML can refer to."""
 
@@ -81,9 +84,15 @@ class CharacterSpec:
 
 @dataclass(frozen=True, slots=True)
 class TargetSpec:
-    """``[target.ID]``: a place to look at, m."""
+    """``[target.ID]``: a place to look at.
+
+    Attributes:
+        position: m.
+        radius: of the space on the ground that characters walk around, m.
+    """
 
     position: Vec3
+    radius: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +129,7 @@ def read_human_file(path: Path) -> HumanFile:
     characters = reader.section(table, "character", reader.character)
     if not characters:
         raise RealizerError(BadHumanFile(file=path.name, key="character", reason="there is none"))
-    targets = reader.section(table, "target", lambda key, own: reader.read(TargetSpec, key, own))
+    targets = reader.section(table, "target", reader.target)
     for id_ in characters.keys() & targets.keys():
         raise RealizerError(BadHumanFile(file=path.name, key=f"target.{id_}", reason="a character has this id"))
     anticipators = reader.section(table, "anticipator", reader.anticipator)
@@ -158,6 +167,12 @@ class _Reader:
             if engine in spec.engines[:rank]:
                 raise self._bad(f"{key}.engines", f"{engine!r} is listed twice")
         return replace(spec, bindings={**DEFAULT_BINDINGS, **spec.bindings})
+
+    def target(self, key: str, table: Any) -> TargetSpec:
+        spec = self.read(TargetSpec, key, table)
+        if not 0.0 <= spec.radius <= WIDEST:
+            raise self._bad(f"{key}.radius", f"{spec.radius:g} is not from 0 to {WIDEST:g} m")
+        return spec
 
     def limits(self, table: Any) -> Limits:
         limits = self.read(Limits, "limits", table)

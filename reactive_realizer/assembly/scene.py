@@ -96,7 +96,10 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
     """
     specification = read_human_file(options.human)
     assets = Assets(options.assets)
-    world = World({target: spec.position for target, spec in specification.targets.items()})
+    targets = specification.targets
+    world = World(
+        {id_: spec.position for id_, spec in targets.items()}, {id_: spec.radius for id_, spec in targets.items()}
+    )
     tts: TTSBinding = load("tts", options.voice)()
     time = Source(Graph(), "time", GlobalTime(0.0))
     streams = SpeechStreams(specification.limits)

@@ -1,13 +1,34 @@
 """The targets that behaviors look and point at."""
 
 import re
-from collections.abc import Iterable, Mapping
-from typing import Protocol
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
+from typing import NamedTuple, Protocol
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.vector import Vec3
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]{1,6}(?:\.[0-9]*)?|\.[0-9]+)")
+
+
+_AROUND = 0.3
+"""Radius of the space that a body needs, with its arms at its sides, m."""
+
+Ground = tuple[float, float]
+"""A point on the ground: x and z in the world, m."""
+
+
+class Obstacle(NamedTuple):
+    """A disk on the ground that nobody walks through.
+
+    Attributes:
+        place: its center.
+        radius: m.
+    """
+
+    place: Ground
+    radius: float
 
 
 class Locate(Protocol):
@@ -23,10 +44,12 @@ class World:
 
     Args:
         positions: of the fixed targets.
+        radii: of those that figures walk around, m.
     """
 
-    def __init__(self, positions: Mapping[str, Vec3]) -> None:
+    def __init__(self, positions: Mapping[str, Vec3], radii: Mapping[str, float] = MappingProxyType({})) -> None:
         self._positions: dict[str, Vec3] = dict(positions)
+        self._radii = radii
         self._living: dict[str, Locate] = {}
 
     def add_character(self, character: str, locate: Locate) -> None:
@@ -57,6 +80,19 @@ class World:
     def lives(self, target: str) -> bool:
         """Return whether a target is a character, and not one of its joints."""
         return target in self._living
+
+    def radius(self, target: str) -> float:
+        """Return the radius of the space on the ground that a target takes, m; 0 if none."""
+        return _AROUND if self.lives(target) else self._radii.get(target, 0.0)
+
+    def obstacles(self, character: str) -> Iterator[Obstacle]:
+        """Yield where the middle of a character cannot be: at objects with a radius, and at other characters."""
+        middles = {target: self._positions.get(target) for target in self._radii}
+        middles |= {other: locate(ROOT) for other, locate in self._living.items() if other != character}
+        for target, position in middles.items():
+            radius = self.radius(target)
+            if position is not None and radius > 0.0:
+                yield Obstacle((position[0], position[2]), radius + _AROUND)
 
     @property
     def targets(self) -> Iterable[str]:

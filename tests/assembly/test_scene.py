@@ -74,6 +74,7 @@ async def test_the_viseme_binding_of_an_avatar_is_beside_it(human: Callable[[str
         (ALICE + "heading = 1" + "0" * 400, ["character.alice.heading"]),
         (ALICE + "heading = 1" + "0" * 5000, ["human.toml"]),
         (ALICE + 'bindings = { foo = "x" }', ["character.alice.bindings.foo", "known are gesture, face"]),
+        (ALICE + "[target.t]\nposition = [0, 1, 2]\nradius = -0.1", ["target.t.radius", "-0.1 is not from 0 to 100 m"]),
         (ALICE + "blink_rate = 61", ["character.alice.blink_rate", "61 is not from 0 to 60 per minute"]),
         (ALICE + "bindings = { gesture = 3 }", ["character.alice.bindings.gesture"]),
         (ALICE + 'engines = ["speech", "wait", "speech"]', ["character.alice.engines", "'speech'", "twice"]),

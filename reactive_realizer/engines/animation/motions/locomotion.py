@@ -11,12 +11,20 @@ from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.feet import LEG_JOINTS, walks
-from reactive_realizer.embodiment.place import Place, between_headings, heading_of
+from reactive_realizer.embodiment.place import Place, between_headings
 from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.world import Ground
 from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext
 from reactive_realizer.engines.animation.candidates import Candidates
-from reactive_realizer.engines.animation.faults import NoJoints, NoManner, NotStanding, PlaceNotReached, WrongElement
+from reactive_realizer.engines.animation.faults import (
+    NoJoints,
+    NoManner,
+    NotStanding,
+    NotWalkable,
+    PlaceNotReached,
+    WrongElement,
+)
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
@@ -26,6 +34,8 @@ from reactive_realizer.engines.animation.walking.destination import (
     FACING,
     WAY,
     Destination,
+    Way,
+    WayBlocked,
     destination,
 )
 from reactive_realizer.engines.animation.walking.manner import FASTEST, MANNERS, SLOWEST, Manner, is_at
@@ -60,6 +70,7 @@ class LocomotionMotionUnit(MotionUnit):
     Attributes:
         manner: in which it goes.
         place: where it is expected to end.
+        corners: of the way there.
     """
 
     kind = LayerKind.FULL_BODY
@@ -76,11 +87,15 @@ class LocomotionMotionUnit(MotionUnit):
             manner: in which to go.
             speed: m/s.
             start: where the figure is expected to start.
+
+        Raises:
+            WayBlocked: obstacles are on all ways.
         """
         self.parameters = {SPEED: speed}
         self.ranges = {SPEED: SPEEDS}
         self.manner, self._leads = manner, leads
-        self.place = leads.from_place(start) or start
+        way = leads.way_from(start) or Way(start, (), start)
+        self.place, self.corners = way.place, way.corners
         self.preferred_duration = max(self.duration(start), 0.1)
         self.shortest = {"end": min(self.preferred_duration, self._shortest(start))}
 
@@ -91,13 +106,17 @@ class LocomotionMotionUnit(MotionUnit):
         return self.manner if speed <= self.manner.top else replace(self.manner, top=speed)
 
     def look(self, place: Place) -> None:
-        """Look where the target is now, from a place on the way."""
-        new = self._leads.from_place(place)
+        """Look where the target and obstacles are now, from a place on the way; one that is blocked now stays."""
+        try:
+            new = self._leads.way_from(place)
+        except WayBlocked:
+            return
         if new is None:
             return
-        way, turn = _way(self.place, new), between_headings(self.place.heading, new.heading)
+        self.corners = new.corners
+        way, turn = _way(self.place, new.place), between_headings(self.place.heading, new.place.heading)
         if way > _MOVED or abs(turn) > _MOVED:
-            self.place = new
+            self.place = new.place
 
     def duration(self, start: Place, moving: float = 0.0) -> float:
         """Return the preferred duration from a place, s; a figure that moves already needs no time to start."""
@@ -117,15 +136,11 @@ class LocomotionMotionUnit(MotionUnit):
 
     def _turns(self, start: Place) -> tuple[float, tuple[float, float]]:
         """Return the way to go from a place, m, and the turns at its beginning and at its end, rad."""
-        way = _way(start, self.place)
-        if not self.manner.ahead or way < 0.6:
-            return way, (0.0, between_headings(start.heading, self.place.heading))
-        (x, _, z), (to_x, _, to_z) = start.position, self.place.position
-        direction = heading_of(to_x - x, to_z - z)
-        return way, (
-            between_headings(start.heading, direction),
-            between_headings(direction, self.place.heading),
-        )
+        way = Way(start, self.corners, self.place)
+        if not self.manner.ahead or way.length < 0.6:
+            return way.length, (0.0, between_headings(start.heading, self.place.heading))
+        first, last = way.directions
+        return way.length, (between_headings(start.heading, first), between_headings(last, self.place.heading))
 
     def start(self, body: Body) -> None:
         """Start; the walker moves the body."""
@@ -150,6 +165,7 @@ class LocomotionUnit(AnimationUnit):
         self._tied = "end" in behavior.syncs
         self._looked = GlobalTime(-inf)
         self._expected: tuple[Place, float] | None = None
+        self._corners: tuple[Ground, ...] = ()
         self._end: Time = None
 
     def next_due(self) -> Time:
@@ -172,9 +188,12 @@ class LocomotionUnit(AnimationUnit):
             return
         self._looked = now
         self.motion.look(place)
-        expected = (self.motion.place, self.motion.parameters[SPEED])
+        expected, corners = (self.motion.place, self.motion.parameters[SPEED]), self.motion.corners
+        passed = len(self._corners) - len(corners)
+        another = passed < 0 or self._corners[passed:] != corners
+        self._corners = corners
         end = self.time("end")
-        if expected != self._expected or (end is None and self._end is None):
+        if another or expected != self._expected or (end is None and self._end is None):
             self._expected = expected
             self._end = GlobalTime(now + self.motion.duration(place, speed))
             if not self._tied and end is not None and abs(end - self._end) > _EARLIER:
@@ -186,7 +205,7 @@ class LocomotionUnit(AnimationUnit):
         """Return where it goes now, and when it arrives."""
         end = self.time("end")
         arrives = self._end if end is None else end
-        return None if arrives is None else Goal(self.motion.place, self.motion.top, arrives)
+        return None if arrives is None else Goal(self.motion.place, self.motion.top, arrives, self.motion.corners)
 
 
 class LocomotionMaker:
@@ -214,4 +233,7 @@ class LocomotionMaker:
             context.world, context.character, start, behavior.target, request.parameters, turns=manner.ahead
         )
         speed = parameter_values(request.parameters, {SPEED: SPEEDS}).get(SPEED, manner.speed)
-        return LocomotionMotionUnit(leads, manner, speed, start)
+        try:
+            return LocomotionMotionUnit(leads, manner, speed, start)
+        except WayBlocked as problem:
+            raise RealizerError(NotWalkable(target=behavior.target, reason="obstacles are on all ways")) from problem

@@ -2,14 +2,16 @@
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from reactive_realizer.embodiment.place import Place, between_headings, heading_of
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.embodiment.world import World
+from reactive_realizer.embodiment.world import Ground, Obstacle, World
 from reactive_realizer.engines.animation.faults import NoTarget, NotWalkable
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
+from reactive_realizer.engines.animation.walking.route import length_of, route
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.planunit.parameter import Range
 
@@ -35,8 +37,44 @@ _COORDINATES = re.compile(r"\s*[-+.\deE]+(?:[\s,]+[-+.\deE]+){1,2}\s*")
 _NOWHERE = 1e-3
 """A way that is shorter has no direction, m."""
 
-Ground = tuple[float, float]
-"""A point on the ground: x and z in the world, m."""
+
+class Way(NamedTuple):
+    """A way over the ground.
+
+    Attributes:
+        start: where it begins.
+        corners: between its straight legs.
+        place: where it ends.
+    """
+
+    start: Place
+    corners: tuple[Ground, ...]
+    place: Place
+
+    @property
+    def length(self) -> float:
+        """Its length, m."""
+        return length_of(self._points)
+
+    @property
+    def directions(self) -> tuple[float, float]:
+        """Headings of its first and its last leg, rad."""
+        points = self._points
+        first, last = ((b[0] - a[0], b[1] - a[1]) for a, b in (points[:2], points[-2:]))
+        return heading_of(*first), heading_of(*last)
+
+    @property
+    def _points(self) -> tuple[Ground, ...]:
+        return (ground_of(self.start), *self.corners, ground_of(self.place))
+
+
+def ground_of(place: Place) -> Ground:
+    """Return where a place is on the ground."""
+    return place.position[0], place.position[2]
+
+
+class WayBlocked(Exception):
+    """Obstacles are on all ways to a destination."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,15 +86,41 @@ class Destination:
         distance: at which to stop, m.
         facing: returns the heading in the end at a place, rad; None without one.
         turns: whether the figure faces the way that it goes, and so the target in the end.
+        obstacles: returns those to go around.
     """
 
     point: Callable[[], Ground | None]
     distance: float
     facing: Callable[[Ground], float | None]
     turns: bool
+    obstacles: Callable[[], Iterable[Obstacle]]
 
-    def from_place(self, start: Place) -> Place | None:
-        """Return the place where a figure that is at a place stops; None if that is unknown now."""
+    def way_from(self, start: Place) -> Way | None:
+        """Return the shortest way for a figure that is at a place; None if the destination is unknown now.
+
+        Raises:
+            WayBlocked: there is none.
+        """
+        place = self._place_from(start)
+        if place is None:
+            return None
+        obstacles = tuple(self.obstacles())
+        corners = around = self._corners(start, place, obstacles)
+        if around:
+            x, z = around[-1]
+            place = self._place_from(Place((x, start.position[1], z), start.heading)) or place
+            corners = self._corners(start, place, obstacles)
+        return Way(start, corners, place)
+
+    @staticmethod
+    def _corners(start: Place, place: Place, obstacles: Iterable[Obstacle]) -> tuple[Ground, ...]:
+        corners = route(ground_of(start), ground_of(place), obstacles)
+        if corners is None:
+            raise WayBlocked
+        return corners
+
+    def _place_from(self, start: Place) -> Place | None:
+        """Return the place where a figure stops that comes straight from a place; None if that is unknown now."""
         goal = self.point()
         if goal is None:
             return None
@@ -96,7 +160,8 @@ def destination(
             raise RealizerError(
                 NotWalkable(target=target, reason=f"it is {way:.3g} m away; the limit is {FARTHEST:g} m")
             )
-    return Destination(point, values.get(DISTANCE, usual), _facing(world, parameters.get(FACING)), turns)
+    distance, facing = values.get(DISTANCE, usual), _facing(world, parameters.get(FACING))
+    return Destination(point, distance, facing, turns, lambda: world.obstacles(character))
 
 
 def _point(
@@ -117,7 +182,8 @@ def _point(
         raise RealizerError(NotWalkable(target=target, reason="it is the character itself"))
     if world.position(target) is None:
         raise RealizerError(NoTarget(target=target, known=tuple(world.targets)))
-    return lambda: _over_ground(world.position(target)), _TO_CHARACTER if world.lives(target) else _TO_OBJECT
+    usual = _TO_CHARACTER if world.lives(target) else _TO_OBJECT + world.radius(target)
+    return lambda: _over_ground(world.position(target)), usual
 
 
 def _coordinates(text: str) -> Ground:

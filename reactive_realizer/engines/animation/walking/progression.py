@@ -6,7 +6,9 @@ from typing import NamedTuple, Self
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.place import Place, between_headings, heading_of
+from reactive_realizer.embodiment.world import Ground
 from reactive_realizer.engines.animation.walking.manner import TURNING, Manner, turning_time
+from reactive_realizer.engines.animation.walking.route import length_of
 
 _STEP = 0.02
 """Longest step of time in which a progression is followed, s."""
@@ -20,6 +22,10 @@ _YAW_GAIN = 2.5
 
 _ASIDE = 0.6
 """A figure does not turn into a way that is shorter, m: it steps aside or back."""
+
+
+_PASSED = 0.1
+"""A figure that is nearer to a corner of its way turns into the next leg, m."""
 
 
 class Axis(NamedTuple):
@@ -69,11 +75,13 @@ class Goal:
         place: in the end.
         manner: in which it goes.
         end: time at which it stands there, s.
+        corners: of the way there.
     """
 
     place: Place
     manner: Manner
     end: GlobalTime
+    corners: tuple[Ground, ...] = ()
 
 
 class Progression:
@@ -92,6 +100,7 @@ class Progression:
         (x, self._height, z), heading = place.position, place.heading
         self.x, self.z, self.heading = Axis(x), Axis(z), Axis(heading)
         self.goal: Goal | None = None
+        self._corners: tuple[Ground, ...] = ()
 
     @property
     def place(self) -> Place:
@@ -114,7 +123,7 @@ class Progression:
 
     def pursue(self, goal: Goal) -> None:
         """Go to another goal from now on."""
-        self.goal = goal
+        self.goal, self._corners = goal, goal.corners
 
     def brake(self, now: GlobalTime, manner: Manner) -> None:
         """Come to rest on the way, as soon as it looks natural."""
@@ -142,13 +151,12 @@ class Progression:
 
     def _follow(self, goal: Goal, now: GlobalTime, passed: float) -> None:
         (goal_x, _, goal_z), manner = goal.place.position, goal.manner
-        to_x, to_z = goal_x - self.x.at, goal_z - self.z.at
-        way, direction = math.hypot(to_x, to_z), heading_of(to_x, to_z)
+        points = self._points_ahead((goal_x, goal_z))
+        way, direction, last = length_of(points), _heading(*points[:2]), _heading(*points[-2:])
         faces = manner.ahead and way > _ASIDE
-        final = between_headings(direction, goal.place.heading) if faces else 0.0
-        tail = turning_time(final)
+        tail = turning_time(between_headings(last, goal.place.heading)) if faces else 0.0
         left = goal.end - tail - now
-        arrives = left <= manner.braking
+        arrives = left <= manner.braking and not self._corners
         if arrives:
             left = max(left, min(1.875 * way / manner.top, manner.braking))
             self.x = self.x.arriving(goal_x, left, passed)
@@ -161,6 +169,17 @@ class Progression:
             self.z = self.z.driven(speed * math.cos(direction), _AGILITY, passed)
         self._turn(goal, now, passed, direction if faces and not arrives else None)
 
+    def _points_ahead(self, goal: Ground) -> tuple[Ground, ...]:
+        """Return the present point, and the corners that lie ahead with the goal."""
+        here = (self.x.at, self.z.at)
+        while self._corners:
+            (x, z), (next_x, next_z) = (*self._corners, goal)[:2]
+            passed = (here[0] - x) * (next_x - x) + (here[1] - z) * (next_z - z) > 0.0
+            if not passed and math.dist(here, (x, z)) > _PASSED:
+                break
+            self._corners = self._corners[1:]
+        return (here, *self._corners, goal)
+
     def _turn(self, goal: Goal, now: GlobalTime, passed: float, direction: float | None) -> None:
         """Turn into a direction, rad; None for that of the goal."""
         aim = goal.place.heading if direction is None else direction
@@ -171,3 +190,7 @@ class Progression:
         else:
             speed = min(TURNING, max(-TURNING, _YAW_GAIN * turn))
             self.heading = self.heading.driven(speed, _YAW_AGILITY, passed)
+
+
+def _heading(start: Ground, end: Ground) -> float:
+    return heading_of(end[0] - start[0], end[1] - start[1])
