@@ -121,6 +121,12 @@ def missed(body: Body, joint: str, target: tuple[float, float, float]) -> float:
     return math.degrees(math.acos(max(-1.0, min(1.0, dot(way, rotate(place.rotation, FORWARD))))))
 
 
+async def sit(pilot: RealizerPilot) -> None:
+    """A figure that sits does not turn on its feet."""
+    pilot.block("a", '<postureShift id="p" start="0" end="1"><stance type="SITTING"/></postureShift>')
+    await pilot.advance(2)
+
+
 @pytest.mark.parametrize(
     ("xml", "yaw"),
     [
@@ -136,6 +142,7 @@ async def test_a_gaze_that_falls_short_is_reported_once_with_its_angle(
 ) -> None:
     target = (5.0 * math.sin(math.radians(yaw)), 1.6, 5.0 * math.cos(math.radians(yaw)))
     pilot.move("camera", target)
+    await sit(pilot)
     pilot.block("b", xml)
     await pilot.advance(4)
     (said,) = told(pilot)
@@ -147,6 +154,7 @@ async def test_a_gaze_that_falls_short_is_reported_once_with_its_angle(
 
 async def test_a_head_direction_that_falls_short_is_reported(pilot: RealizerPilot) -> None:
     pilot.move("camera", (5.0, 1.6, -5.0))
+    await sit(pilot)
     pilot.block("b", '<headDirectionShift id="x" target="camera"/>')
     await pilot.advance(3)
     (said,) = told(pilot)

@@ -21,6 +21,7 @@ from reactive_realizer.bml.behaviors import (
     PostureShift,
 )
 from reactive_realizer.bml.extensions import MOTIONS
+from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
@@ -57,7 +58,7 @@ from reactive_realizer.engines.animation.late_hands import LateHands
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
-from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, GazeGoal
+from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, GazeGoal, Resource
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
 from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionMotionUnit, LocomotionUnit
 from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
@@ -68,6 +69,8 @@ from reactive_realizer.engines.animation.posture.foot_planting import FootPlanti
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.walk import Walk
+from reactive_realizer.engines.animation.walking.progression import Goal
+from reactive_realizer.engines.animation.walking.step_turn import StepTurns
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.planunit.parameter import Range
@@ -131,6 +134,7 @@ class AnimationEngine(DefaultEngine):
         self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
         self._walk = Walk(context.humanoid)
+        self._step_turns = StepTurns()
         self._persistent = PersistentPoses()
         self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
         self._fade_outs: list[FadeOut] = []
@@ -259,7 +263,7 @@ class AnimationEngine(DefaultEngine):
         self._history.start_frame(tick.time)
         self._fade_outs = [fade_out for fade_out in self._fade_outs if not fade_out.finished(tick.time)]
         walking: tuple[Layer, ...] = self._isolated(
-            "walking", lambda: self._walk.layers(tick.time, self._walks(), self._rest.body), ()
+            "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time), self._rest.body), ()
         )
         layers = (
             self._base(),
@@ -306,11 +310,24 @@ class AnimationEngine(DefaultEngine):
     @property
     def needs_frames(self) -> bool:
         """Whether the figure is simulated, or walks: what happens then depends on what happened before."""
-        return self._physical_figure.active or bool(self._controlling()) or self._walk.active or bool(self._walks())
+        steps = any(unit.motion.steps for unit in self.player.playing if isinstance(unit, AnimationUnit))
+        walks = self._walk.active or steps or bool(self._walks())
+        return self._physical_figure.active or bool(self._controlling()) or walks
 
     def requests(self, tick: Tick) -> tuple[MovePoints, ...]:
         """Return the moves of the ends of locomotion: the figure arrives earlier or later than expected."""
         return tuple(move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
+
+    def _destination(self, now: GlobalTime) -> Goal | None:
+        """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""
+        goals = [goal for unit in self._walks() if (goal := unit.goal()) is not None]
+        units = self.player.stacked(AnimationUnit)
+        moved = any(ROOT in controller.joints for controller in self._controlling().values())
+        stands = self._rest.posture.stance is StanceType.STANDING and not moved
+        if goals or not stands or any(Resource.STANCE in unit.resources for unit in units):
+            self._step_turns.forget()
+            return goals[-1] if goals else None
+        return self._step_turns.goal(now, self._humanoid.place, units)
 
     def _walks(self) -> list[LocomotionUnit]:
         """Return the locomotion that plays."""

@@ -137,6 +137,7 @@ class MotionUnit(ABC):
         fade_in: duration of its fade-in if it joins late, s; None if it appears at once.
         joined: time at which it joined late, s; None if it started in time.
         jumped: whether its goal jumped in the last pose, for a reason of its own.
+        steps: whether the feet may turn the figure for it (`step_turn`).
         fault: that occurred while playing; None if there is none.
     """
 
@@ -160,6 +161,7 @@ class MotionUnit(ABC):
     entrance: float = CARRIED
     fade_in: float | None = None
     jumped: bool = False
+    steps: bool = False
     joined: GlobalTime | None = None
     fault: Fault | None = None
 
@@ -193,6 +195,14 @@ class MotionUnit(ABC):
 
     def gaze(self, phase: float) -> GazeGoal | None:
         """Return what directs the eyes at a phase; None if the motion does not."""
+        return None
+
+    def step_turn(self, phase: float) -> float | None:
+        """Return how far the feet are to turn the figure now, so that the joints reach a target, rad to the left.
+
+        Returns:
+            0 where the joints reach it; None without such a target at this phase.
+        """
         return None
 
     def becomes_rest(self) -> bool:

@@ -1,6 +1,6 @@
 """The walking of a figure: where its frame is, and what moves with its feet."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Transform
@@ -10,6 +10,7 @@ from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engines.animation.easing import smoothstep
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionUnit
 from reactive_realizer.engines.animation.walking.carriage import Carriage, limbs, lowering
+from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.engines.animation.walking.walker import Walker
 
 _UNREST = 0.1
@@ -47,16 +48,15 @@ class Walk:
         """Yield the moves of the end of a locomotion."""
         yield from unit.look(now, self._humanoid.place, self._walker.progression.speed)
 
-    def layers(self, now: GlobalTime, units: Sequence[LocomotionUnit], rest: Body) -> tuple[Layer, ...]:
+    def layers(self, now: GlobalTime, goal: Goal | None, rest: Body) -> tuple[Layer, ...]:
         """Move the figure to where it is at a time, and return the layers of its walking.
 
         Args:
             now: of the frame, s.
-            units: the locomotion that plays.
+            goal: where the figure goes; without one it comes to rest.
             rest: the body at rest.
         """
-        goals = [goal for unit in units if (goal := unit.goal()) is not None]
-        self._walker.advance(now, goals[-1] if goals else None, rest)
+        self._walker.advance(now, goal, rest)
         self._humanoid.place = self._walker.progression.place
         passed, self._time = now - self._time, now
         change = passed / _EASING

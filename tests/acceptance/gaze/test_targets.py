@@ -220,7 +220,7 @@ async def test_frames_are_valid_for_any_target(
 ) -> None:
     put(pilot, "t", yaw, pitch, far)
     pilot.block("b", f'<{element} id="g" target="t" start="0"/>')
-    await pilot.advance(2.5)
+    await pilot.advance(4)
     for frame in pilot.frames["alice"]:
         assert np.linalg.norm(frame.rotations, axis=1) == pytest.approx(1.0)
     assert pilot.feedback.reached("b:g:end")

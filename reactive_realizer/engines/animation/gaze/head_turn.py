@@ -54,7 +54,7 @@ _USUAL: Mapping[Influence, Mapping[str, float]] = {
     Influence.HEAD: _HEAD,
     Influence.SHOULDER: _SHOULDER,
     Influence.WAIST: _WAIST,
-    # The feet stay in place: turning the legs would be locomotion.
+    # The feet turn the figure only where the joints do not reach (`StepTurns`).
     Influence.WHOLE: _WAIST,
 }
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from types import MappingProxyType
 from typing import Self
 
@@ -11,13 +11,15 @@ from reactive_realizer.binding.asset_file import parse_boolean
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Gaze, GazeShift, HeadDirectionShift
 from reactive_realizer.bml.names import BMLT
-from reactive_realizer.bml.vocabulary import Influence
+from reactive_realizer.bml.vocabulary import Influence, StanceType
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.feet import walks
 from reactive_realizer.embodiment.joints import TRUNK
+from reactive_realizer.embodiment.place import heading_of
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, angle, difference, slerp
-from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engines.animation.easing import MINIMUM_JERK_PEAK, minimum_jerk, share
 from reactive_realizer.engines.animation.faults import GazeNear, GazeShort, WrongElement
 from reactive_realizer.engines.animation.gaze.eyes import GazeTarget
@@ -34,6 +36,7 @@ from reactive_realizer.engines.animation.motion_parameters import parameter_valu
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import lag, turning_time
+from reactive_realizer.engines.animation.walking.manner import stepping_time
 from reactive_realizer.errors import RealizerError
 
 
@@ -90,6 +93,13 @@ Attention, Perception, & Psychophysics 86, 2024).
 """
 
 
+_STEPS_FROM = math.radians(60.0)
+"""Angle aside up to which the feet stay in place, rad."""
+
+_LEFT_TO_JOINTS = math.radians(30.0)
+"""Angle that the feet leave to the joints, rad."""
+
+
 class GazeMotionUnit(MotionUnit):
     """Turns trunk, neck and head toward a target, and keeps them turned to it until it relaxes.
 
@@ -107,6 +117,8 @@ class GazeMotionUnit(MotionUnit):
         rest: RestPosture,
         kind: GazeKind = LOOK,
         expected: GazeTarget | None = None,
+        *,
+        steps: bool = False,
     ) -> None:
         """Plan a gaze.
 
@@ -116,6 +128,7 @@ class GazeMotionUnit(MotionUnit):
             rest: posture of trunk, neck and head without gaze.
             kind: of gaze.
             expected: the target as it is now; without one, the gaze has no shortest durations.
+            steps: whether the feet turn the figure where joints do not reach the target.
         """
         self.parameters = dict(weights)
         self.ranges = {group: GAZE_WEIGHTS[group] for group in weights}
@@ -126,15 +139,50 @@ class GazeMotionUnit(MotionUnit):
         self._rest = rest
         self.key_positions = kind.key_positions
         self.preferred_duration = kind.duration
-        self._ready = kind.key_positions.get("ready", 1.0)
-        self._relax = kind.key_positions.get("relax", math.inf)
+        self.steps = steps
         self.entrance = _TURN
         self._begin = rest.body
         self._seen: tuple[GlobalTime, Mapping[str, Quat]] | None = None
         if expected is not None:
-            self.shortest = self._shortest(expected)
+            turn = self._step_turn(expected)
+            self._take_time(stepping_time(turn).preferred)
+            self.shortest = self._shortest(expected, stepping_time(turn).shortest)
 
-    def _shortest(self, expected: GazeTarget) -> dict[str, float]:
+    @property
+    def _ready(self) -> float:
+        return self.key_positions.get("ready", 1.0)
+
+    @property
+    def _relax(self) -> float:
+        return self.key_positions.get("relax", math.inf)
+
+    def _take_time(self, turn: float) -> None:
+        """Make the turn, and the turn back, at least as long as a turn of the feet takes, s."""
+        spans = [(point, end - begin) for (_, begin), (point, end) in pairwise(self.key_positions.items())]
+        durations = {point: span * self.preferred_duration for point, span in spans}
+        longer = {point: time if point == "relax" else max(time, turn) for point, time in durations.items()}
+        if longer != durations:
+            self.preferred_duration = sum(longer.values())
+            ends = accumulate(longer.values())
+            phases = {point: end / self.preferred_duration for point, end in zip(longer, ends, strict=True)}
+            self.key_positions = {"start": 0.0, **phases, "end": 1.0}
+
+    def step_turn(self, phase: float) -> float | None:
+        """As `MotionUnit.step_turn`: until it relaxes."""
+        return self._step_turn(self._target) if self.steps and phase < self._relax else None
+
+    def _step_turn(self, target: GazeTarget) -> float:
+        """Return how far the feet turn the figure to a target, rad to the left."""
+        x, _, z = target.point(ZERO)
+        bearing = heading_of(x, z)
+        if not self.steps or abs(bearing) < _STEPS_FROM:
+            return 0.0
+        missing = head_turn_toward(self._rest.body, self._rest.pose, target.point, self.parameters).missing
+        if missing is None or missing <= _TOLERANCE:
+            return 0.0
+        return math.copysign(abs(bearing) - _LEFT_TO_JOINTS, bearing)
+
+    def _shortest(self, expected: GazeTarget, stepping: float) -> dict[str, float]:
         """Return the shortest durations of the turn from rest to the expected target, and of the turn back, s.
 
         The head may fall behind on its way. The trunk may not, because the arms hang on it.
@@ -143,7 +191,7 @@ class GazeMotionUnit(MotionUnit):
         turn = head_turn_toward(body, self._rest.pose, expected.point, self.parameters).rotations
         turned, trunk = body.posed(turn), turn.keys() & TRUNK
         head = lag(minimum_jerk) * turning_time(body, turned, turn.keys() - trunk)
-        turning = max(head, MINIMUM_JERK_PEAK * turning_time(body, turned, trunk))
+        turning = max(head, MINIMUM_JERK_PEAK * turning_time(body, turned, trunk), stepping)
         spans = ((point, end - begin) for (_, begin), (point, end) in pairwise(self.key_positions.items()))
         return {point: min(span * self.preferred_duration, turning) for point, span in spans if point != "relax"}
 
@@ -246,7 +294,7 @@ class GazeMaker:
             request.parameters, GAZE_WEIGHTS
         )
         kind = GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK
-        return GazeMotionUnit(target, weights, self._context.rest, kind, expected)
+        return GazeMotionUnit(target, weights, self._context.rest, kind, expected, steps=_steps(self._context, weights))
 
 
 class HeadDirectionMaker:
@@ -265,7 +313,14 @@ class HeadDirectionMaker:
         )
         weights = default_weights(Influence.HEAD) | parameter_values(request.parameters, GAZE_WEIGHTS)
         del weights[EYE_WEIGHT]
-        return GazeMotionUnit(target, weights, self._context.rest, HEAD_SHIFT, expected)
+        steps = _steps(self._context, weights)
+        return GazeMotionUnit(target, weights, self._context.rest, HEAD_SHIFT, expected, steps=steps)
+
+
+def _steps(context: MakerContext, weights: Mapping[str, float]) -> bool:
+    """Return whether a figure can turn on its feet for a gaze: not for one of the eyes alone."""
+    stands = context.rest.expected.stance is StanceType.STANDING and walks(context.humanoid.avatar.skeleton)
+    return stands and any(weights.get(group, 0.0) > 0.0 for group in JOINT_GROUPS)
 
 
 def _follows(behavior: Behavior) -> bool:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import NamedTuple
 
 TURNING = 2.0
 """Speed at which the feet turn a figure, rad/s: less than 60 degrees with each step."""
@@ -74,6 +75,26 @@ class Manner:
 def turning_time(angle: float) -> float:
     """Return the time that a turn adds to a way, s; a small one is part of its steps."""
     return max(0.0, abs(angle) - _ASIDE) / TURNING
+
+
+class SteppingTime(NamedTuple):
+    """The duration of a turn on the spot, s; 0 for none.
+
+    Attributes:
+        preferred: not less than the shortest.
+        shortest: that the feet need.
+    """
+
+    preferred: float
+    shortest: float
+
+
+def stepping_time(angle: float) -> SteppingTime:
+    """Return how long a turn on the spot takes, rad."""
+    if not angle:
+        return SteppingTime(0.0, 0.0)
+    turns = (0.0, angle)
+    return SteppingTime(WALK.duration(0.0, WALK.speed, turns), WALK.shortest(0.0, turns))
 
 
 WALK = Manner("WALK", 1.2, 2.1)

@@ -1,0 +1,106 @@
+"""Gazes at targets that joints do not reach: the feet turn the figure."""
+
+import math
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+from tests.acceptance.gaze.seen import miss
+
+from .tracks import deepest, heading, slide
+
+SCENE = """
+[character.alice]
+
+[target.behind]
+position = [-0.5, 1.5, -2.0]
+
+[target.left]
+position = [2.0, 1.5, 0.1]
+
+[target.front]
+position = [0.2, 1.5, 2.0]
+"""
+BEHIND = math.degrees(math.atan2(-0.5, -2.0))
+"""Direction of the target behind, degrees to the left of +z."""
+
+
+@pytest.fixture
+async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
+    human = tmp_path / "human.toml"
+    human.write_text(SCENE)
+    async with open_pilot(SceneOptions(human, voice="text", verify=True)) as pilot:
+        pilot.watch()
+        yield pilot
+
+
+def look(element: str = "gaze", target: str = "behind", rest: str = "") -> str:
+    return f'<{element} id="g" target="{target}" {rest}/>'
+
+
+def headings(pilot: RealizerPilot) -> list[float]:
+    return [heading(body) for body in pilot.bodies("alice")]
+
+
+async def test_the_feet_turn_a_figure_to_what_is_behind_it_and_back(pilot: RealizerPilot) -> None:
+    pilot.block("b", look(rest='influence="HEAD"'))
+    await pilot.advance(6)
+    bodies = pilot.bodies("alice")
+    ready, relax, end = (round(pilot.feedback.time(f"b:g:{point}") * 50) for point in ("ready", "relax", "end"))
+    assert max(miss(body, (-0.5, 1.5, -2.0)) for body in bodies[ready + 2 : relax]) < 1.0
+    assert heading(bodies[ready + 2]) == pytest.approx(BEHIND + 30.0, abs=2.0)
+    assert heading(bodies[end + 2]) == pytest.approx(0.0, abs=2.0)
+    assert slide(bodies) < 0.01
+    assert deepest(bodies) > -0.01
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("element", ["gazeShift", "headDirectionShift"])
+async def test_a_figure_stays_turned_after_a_shift(pilot: RealizerPilot, element: str) -> None:
+    pilot.block("b", look(element))
+    await pilot.advance(5)
+    assert headings(pilot)[-1] == pytest.approx(BEHIND + 30.0, abs=2.0)
+    assert pilot.feedback.warnings == []
+
+
+async def test_the_feet_stay_where_the_joints_reach(pilot: RealizerPilot) -> None:
+    pilot.block("b", look(target="left", rest='influence="HEAD"'))
+    await pilot.advance(3)
+    assert max(map(abs, headings(pilot))) < 3.0
+
+
+async def test_the_feet_follow_a_target_that_moves_behind_the_figure(pilot: RealizerPilot) -> None:
+    pilot.block("b", look(target="front", rest='bmlt:dynamic="true" start="0" end="6"'))
+    await pilot.advance(1.5)
+    pilot.realizer.world.move("front", (-2.0, 1.5, -1.6))
+    await pilot.advance(2.5)
+    assert headings(pilot)[-1] == pytest.approx(math.degrees(math.atan2(-2.0, -1.6)) + 30.0, abs=2.0)
+    assert slide(pilot.bodies("alice")) < 0.01
+
+
+async def test_an_interrupted_gaze_turns_back(pilot: RealizerPilot) -> None:
+    pilot.block("b", look(rest='start="0" end="8"'))
+    await pilot.advance(3)
+    pilot.block("c", composition="REPLACE")
+    await pilot.advance(3)
+    assert headings(pilot)[-1] == pytest.approx(0.0, abs=2.0)
+
+
+async def test_a_turn_of_the_feet_takes_its_time(pilot: RealizerPilot) -> None:
+    pilot.block("b", look(rest='ready="0.2"'))
+    await pilot.advance(4)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert "ready" in warning.text
+    assert pilot.feedback.time("b:g:ready") >= 0.8
+
+
+async def test_a_figure_that_sits_says_that_it_does_not_reach_a_target(pilot: RealizerPilot) -> None:
+    pilot.block("a", '<postureShift id="p"><stance type="SITTING"/></postureShift>')
+    pilot.block("b", look(rest='influence="HEAD"'), composition="APPEND")
+    await pilot.advance(6)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert "degrees short of its target" in warning.text
+    assert max(map(abs, headings(pilot))) < 5.0
