@@ -7,8 +7,10 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.vector import Vec3, subtract, unit
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
-from tests.acceptance.gaze.seen import miss
+from tests.acceptance.gaze.seen import between, miss
 
 from .tracks import deepest, heading, slide
 
@@ -104,3 +106,42 @@ async def test_a_figure_that_sits_says_that_it_does_not_reach_a_target(pilot: Re
     (warning,) = pilot.feedback.of("warningFeedback")
     assert "degrees short of its target" in warning.text
     assert max(map(abs, headings(pilot))) < 5.0
+
+
+# --- pointing
+
+
+@pytest.mark.parametrize("rest", ["", 'mode="BOTH_HANDS"', 'mode="LEFT_HAND"'])
+async def test_the_feet_turn_a_figure_that_points_behind_it_and_back(pilot: RealizerPilot, rest: str) -> None:
+    target = (-0.5, 1.5, -2.0)
+    pilot.block("b", f'<pointing id="p" target="behind" {rest}/>')
+    await pilot.advance(7)
+    bodies = pilot.bodies("alice")
+    ready, relax, end = (round(pilot.feedback.time(f"b:p:{point}") * 50) for point in ("ready", "relax", "end"))
+    side = "l" if rest else "r"
+    assert max(off_line(body, side, target) for body in bodies[ready + 1 : relax]) < 2.0
+    assert heading(bodies[ready + 2]) == pytest.approx(BEHIND + 30.0, abs=2.0)
+    assert heading(bodies[end + 2]) == pytest.approx(0.0, abs=2.0)
+    assert slide(bodies) < 0.01
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_gaze_and_a_pointing_at_one_target_turn_the_figure_once(pilot: RealizerPilot) -> None:
+    pilot.block("b", look(rest='start="0" end="4"') + '<pointing id="p" target="behind" start="0" relax="3"/>')
+    await pilot.advance(2.5)
+    shown = headings(pilot)[100:]
+    assert max(shown) - min(shown) < 2.0
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_figure_that_sits_does_not_point_behind_it(pilot: RealizerPilot) -> None:
+    pilot.block("a", '<postureShift id="p"><stance type="SITTING"/></postureShift>')
+    pilot.block("b", '<pointing id="p" target="behind"/>', composition="APPEND")
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == [("b:p", "CANNOT_CREATE_BEHAVIOR")]
+
+
+def off_line(body: Body, side: str, target: Vec3) -> float:
+    """The angle between the line of an index finger and the direction of a target, degrees."""
+    base, tip = (body.transform(f"{side}_index{i}").position for i in (1, 3))
+    return between(unit(subtract(tip, base)), unit(subtract(target, base)))

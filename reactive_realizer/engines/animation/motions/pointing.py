@@ -1,16 +1,20 @@
 """Pointing at a target with one or both hands."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from types import MappingProxyType
 
 from reactive_realizer.bml.behaviors import Pointing
-from reactive_realizer.bml.vocabulary import Mode
+from reactive_realizer.bml.vocabulary import Mode, StanceType
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.feet import walks
 from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.place import Place, between_headings, heading_of
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, rotate, slerp
+from reactive_realizer.embodiment.vector import UP, Vec3
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.faults import NoJoints, NotPointable, TargetLost, WrongElement
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, TargetLocator, target_locator
@@ -24,8 +28,18 @@ from reactive_realizer.engines.animation.motions.reaching import (
     shortest_phases,
     sigmoid_profile,
 )
+from reactive_realizer.engines.animation.walking.manner import stepping_time
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.parameter import Range, spelled
+
+_BEHIND = math.radians(90.0)
+"""Angle aside from which on the feet turn the figure to a target that its arms do not reach, rad."""
+
+_LEFT_TO_ARMS = math.radians(30.0)
+"""Angle that the feet leave to the arms, rad."""
+
+_FACED = math.radians(1.0)
+"""A smaller turn that is left is done, rad."""
 
 HAND = "hand"
 """Parameter for the hand, if the behavior does not choose it."""
@@ -47,6 +61,8 @@ class PointingMotionUnit(MotionUnit):
     The hands start from their current pose. From ready to relax the line follows the target, however target and trunk
     move. Hands have a bell-shaped speed profile (`sigmoid`). Retraction takes as long as preparation, as it does for
     people (thesis 4.2.2). If the target leaves the reach of an arm, the arm stays where it came nearest.
+
+    If the target is behind the arms, the feet turn the figure meanwhile, and turn it back.
     """
 
     kind = LayerKind.GESTURE
@@ -60,6 +76,7 @@ class PointingMotionUnit(MotionUnit):
         figure: Callable[[], Body],
         rest: Body,
         parameters: Mapping[str, float] = DEFAULTS,
+        facing: "Facing | None" = None,
     ) -> None:
         """Plan a pointing gesture.
 
@@ -70,7 +87,10 @@ class PointingMotionUnit(MotionUnit):
             figure: returns the body as shown last; its additive motion, such as breathing, moves the finger.
             rest: expected body at the start; preferred durations follow from it.
             parameters: a valid value for each of `RANGES`.
+            facing: the turn of the feet; None if they stay.
         """
+        self._facing = facing
+        self.steps = facing is not None
         self.parameters = dict(parameters)
         self.joints = frozenset().union(*(arm.joints for arm in arms))
         self.resources = arms_used(self.joints)
@@ -86,11 +106,21 @@ class PointingMotionUnit(MotionUnit):
 
     def preparation(self, body: Body) -> PhaseDuration:
         """Return the duration of the preparation from a body."""
-        return reach(body, body.posed(_turns(self._aim(body))), self.joints, self._profile)
+        way = reach(body, body.posed(_turns(self._aim(body))), self.joints, self._profile)
+        if self._facing is None:
+            return way
+        time = stepping_time(self._facing.planned)
+        return PhaseDuration(max(way.preferred, time.preferred), max(way.shortest, time.shortest))
+
+    def step_turn(self, phase: float) -> float | None:
+        """As `MotionUnit.step_turn`: until it relaxes."""
+        return self._facing.left() if self._facing is not None and phase < self.key_positions["relax"] else None
 
     def start(self, body: Body) -> None:
         """Start from the current pose of the arms."""
         self._begin = {joint: body.rotation(joint) for joint in self.joints}
+        if self._facing is not None:
+            self._facing.start()
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the rotations of arms and fingers; retraction fades to the layers below."""
@@ -107,6 +137,8 @@ class PointingMotionUnit(MotionUnit):
 
     def _aim(self, body: Body, time: GlobalTime | None = None) -> list[ArmPose]:
         target = self._target(time)
+        if self._facing is not None:
+            target = self._facing.turned(target)
         return [arm.aim(body, target) for arm in self._arms]
 
     def _missed(self, aims: Sequence[ArmPose]) -> Fault | None:
@@ -114,6 +146,35 @@ class PointingMotionUnit(MotionUnit):
             if aim.fault is not None:
                 return TargetLost(hand=arm.hand, target=self._name, reason=aim.fault)
         return None
+
+
+class Facing:
+    """A turn of the feet: the direction that a figure faces when it points.
+
+    Args:
+        place: returns where the figure stands.
+        planned: turn from where it stands when it begins, rad to the left.
+    """
+
+    def __init__(self, place: Callable[[], Place], planned: float) -> None:
+        self.planned = planned
+        self._place = place
+        self._heading: float | None = None
+
+    def start(self) -> None:
+        """Begin: from now on the direction is fixed in the world."""
+        self._heading = self._place().heading + self.planned
+
+    def left(self) -> float:
+        """Return the turn that is left, rad."""
+        if self._heading is None:
+            return self.planned
+        left = between_headings(self._place().heading, self._heading)
+        return left if abs(left) > _FACED else 0.0
+
+    def turned(self, point: Vec3) -> Vec3:
+        """Return a point of the figure's frame as it will be there after the turn, m."""
+        return rotate(from_axis_angle(UP, -self.left()), point)
 
 
 def _turns(aims: Sequence[ArmPose]) -> dict[str, Quat]:
@@ -141,10 +202,24 @@ class PointingMaker:
             raise RealizerError(WrongElement(unit="pointing", element=behavior.name))
         target = target_locator(self._context, behavior.target, follow=True)
         sides = _SIDES.get(behavior.mode or spelled(request.parameters.get(HAND, ""), _SIDES))
-        arms = self._arms(sides, behavior, target) if sides else self._free(behavior, target)
-        parameters = {**DEFAULTS, **parameter_values(request.parameters, RANGES)}
         humanoid, rest = self._context.humanoid, self._context.rest.body
-        return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, parameters)
+        facing = self._facing(target, sides)
+        seen = target if facing is None else lambda time=None: facing.turned(target(time))
+        arms = self._arms(sides, behavior, seen) if sides else self._free(behavior, seen)
+        parameters = {**DEFAULTS, **parameter_values(request.parameters, RANGES)}
+        return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, parameters, facing)
+
+    def _facing(self, target: TargetLocator, sides: str | None) -> Facing | None:
+        """Return the turn of the feet toward a target that is behind the arms that have to point; None if they stay."""
+        context, arms = self._context, [self._arm[side] for side in sides or SIDES]
+        stands = context.rest.expected.stance is StanceType.STANDING and walks(context.humanoid.avatar.skeleton)
+        if not stands or any(arm.missing for arm in arms):
+            return None
+        reached = [arm.aim(context.rest.body, target()).fault is None for arm in arms]
+        x, _, z = target()
+        if (all(reached) if sides else any(reached)) or abs(bearing := heading_of(x, z)) < _BEHIND:
+            return None
+        return Facing(lambda: context.humanoid.place, math.copysign(abs(bearing) - _LEFT_TO_ARMS, bearing))
 
     def _free(self, behavior: Pointing, target: TargetLocator) -> Sequence[PointingArm]:
         """Return the arm on the side of the target, or the other one if that one cannot point there."""

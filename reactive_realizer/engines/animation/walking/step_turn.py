@@ -30,11 +30,12 @@ class StepTurns:
         """Begin without a turn."""
         self._home: Place | None = None
         self._goal: Goal | None = None
+        self._owner: AnimationUnit | None = None
         self._looked = GlobalTime(-inf)
 
     def forget(self) -> None:
         """Leave the figure where it is: it walks, or no longer stands."""
-        self._home = self._goal = None
+        self._home = self._goal = self._owner = None
 
     def goal(self, now: GlobalTime, place: Place, units: Sequence[AnimationUnit]) -> Goal | None:
         """Return where to turn; None if nothing asks for a turn, or it is done.
@@ -48,11 +49,11 @@ class StepTurns:
             return self._pending(now)
         self._looked = now
         turns = [(unit, turn) for unit in units if (turn := unit.motion.step_turn(unit.phase)) is not None]
-        if turns:
-            unit, turn = turns[-1]
-            if turn:
-                self._turn(now, place, unit, turn)
-        elif self._home is not None:
+        # The uppermost that has turned the figure, or wants to: others would turn it away from its target.
+        unit, turn = next(((unit, turn) for unit, turn in reversed(turns) if turn or unit is self._owner), (None, 0.0))
+        if unit is not None and turn:
+            self._turn(now, place, unit, turn)
+        elif unit is None and self._home is not None:
             self._return(now, place, units)
         return self._pending(now)
 
@@ -62,6 +63,7 @@ class StepTurns:
             self._home = place
         if unit.motion.persists_as is not None:
             self._home = None
+        self._owner = unit
         heading = place.heading + turn
         if self._goal is None or abs(between_headings(self._goal.place.heading, heading)) > _ANOTHER:
             ready = unit.time("ready" if "ready" in unit.timing.points else "end")
@@ -71,8 +73,9 @@ class StepTurns:
         """Turn back; whether a motion lets the figure have the time that is left to its end."""
         home, self._home = self._home, None
         if home is not None:
-            ends = [unit.time("end") for unit in units if unit.motion.gaze(0.0) is not None]
+            ends = [unit.time("end") for unit in units if unit is self._owner]
             self._set_goal(now, place, home.heading, ends[-1] if ends else None)
+        self._owner = None
 
     def _set_goal(self, now: GlobalTime, place: Place, heading: float, end: GlobalTime | None) -> None:
         turn = between_headings(place.heading, heading)
