@@ -192,18 +192,15 @@ async def test_an_unknown_target_is_reported(pair: RealizerPilot) -> None:
     assert pair.feedback.warnings == [("b:p", "NO_SUCH_TARGET")]
 
 
-@pytest.mark.parametrize(("place", "reason"), [((-0.3, 1.2, -2.0), "behind"), ((-0.15, 1.27, 0.1), "near")])
-async def test_a_target_that_no_hand_can_point_at_is_reported_when_planned(
-    pair: RealizerPilot, place: tuple[float, float, float], reason: str
-) -> None:
-    pair.move("thing", place)
+async def test_a_target_that_no_hand_can_point_at_is_reported_when_planned(pair: RealizerPilot) -> None:
+    pair.move("thing", (-0.15, 1.27, 0.1))
     pair.block("b", '<pointing id="p" target="thing" mode="RIGHT_HAND"/><head id="h" lexeme="NOD"/>')
     await pair.advance(3)
     told = pair.feedback
     assert told.warnings == [("b:p", "CANNOT_CREATE_BEHAVIOR")]
     sentence = told.of("warningFeedback")[0].text
     assert "right hand" in sentence
-    assert reason in sentence
+    assert "near" in sentence
     assert told.reached("b:h:end")
 
 

@@ -139,6 +139,7 @@ async def test_a_figure_that_sits_does_not_point_behind_it(pilot: RealizerPilot)
     pilot.block("b", '<pointing id="p" target="behind"/>', composition="APPEND")
     await pilot.advance(4)
     assert pilot.feedback.warnings == [("b:p", "CANNOT_CREATE_BEHAVIOR")]
+    assert "it is behind the arm" in pilot.feedback.of("warningFeedback")[0].text
 
 
 def off_line(body: Body, side: str, target: Vec3) -> float:
