@@ -79,7 +79,11 @@ class FaceMesh:
         teeth = self._shown(self.upper_teeth, weights)[self.upper_teeth.triangles]
         steps = [(1 - a - b, a, b) for a in np.linspace(0, 1, 13) for b in np.linspace(0, 1 - a, 13)]
         surface = np.einsum("kb,mbc->mkc", np.array(steps), teeth).reshape(-1, 3)
-        return float(np.linalg.norm(lip[:, None] - surface, axis=2).min())
+        middle = lip.mean(0)
+        lip, surface = lip - middle, surface - middle
+        # A product of matrices takes a tenth of the time of all differences.
+        squares = (lip * lip).sum(1)[:, None] + (surface * surface).sum(1) - 2.0 * lip @ surface.T
+        return float(np.sqrt(max(0.0, squares.min())))
 
     def _shown(self, part: Part, weights: Mapping[str, float]) -> Array:
         each = np.array([weights.get(morph, 0.0) for morph in self.morphs])

@@ -46,7 +46,8 @@ def mesh(avatar: str) -> FaceMesh:
 @pytest.fixture
 def options(avatar: str, tmp_path: Path) -> SceneOptions:
     human = tmp_path / "human.toml"
-    human.write_text(f'[character.alice]\navatar = "avatars/{avatar}.glb"\n', encoding="utf-8")
+    character = f'[character.alice]\navatar = "avatars/{avatar}.glb"\nengines = ["face", "speech"]\n'
+    human.write_text(character, encoding="utf-8")
     return SceneOptions(human, "text")
 
 
