@@ -5,15 +5,18 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
-from reactive_realizer.bml.attribute_types import Float, Integer
+from reactive_realizer.bml.attribute_types import Enumeration, Float, Integer
 from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description
 from reactive_realizer.bml.behaviors import Mark, Pose, Stance
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, UseProc
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS, Element
+from reactive_realizer.bml.embr.syntax import CHILDREN as EMBR_CHILDREN
+from reactive_realizer.bml.embr.syntax import PARAMETERS as EMBR_PARAMETERS
 from reactive_realizer.bml.extensions import BehaviorParameter, Trajectory
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT
+from reactive_realizer.bml.key_poses import GOALS, KeyPose
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN
 from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.block_planner import NotSupported
@@ -27,6 +30,7 @@ _CHILDREN = {
     "posture": '<stance type="STANDING"/>',
     "postureShift": '<stance type="STANDING"/>',
     "parametervaluechange": '<trajectory type="linear" targetValue="1"/>',
+    "keyPoses": '<keyPose time="1"><lookAt target="0 0 1"/></keyPose>',
 }
 """Minimal content of elements that cannot be empty."""
 
@@ -37,10 +41,12 @@ _INSIDE: tuple[tuple[str, type, bool], ...] = (
     ("description of any behavior", Description, True),
     ("trajectory of a parametervaluechange", Trajectory, True),
     ("parameter of any behavior, of BMLT", BehaviorParameter, True),
+    ("keyPose of keyPoses", KeyPose, True),
+    *((f"{kind.ELEMENT} of a keyPose", kind, True) for kind in GOALS),
 )
 """Elements inside of behaviors: title, class that declares the attributes, and whether it is realized."""
 
-_PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:"}
+_PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:", OWN: "rr:"}
 
 _NOTES = {
     "bml composition": "in any case, with `-`, `_` or no separator; the last two equal `appendAfter` and `chunkAfter`",
@@ -76,6 +82,20 @@ _NOTES = {
     "parameter of any behavior name": "of [the motion that plays it](binding.md#kinds-of-motion)",
     "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
     "emit event": "its content, of any kind, is for planners",
+    "keyPoses group": "the joints that move; only arms have `position` and `swivel`, and only heads `lookAt`",
+    "keyPoses fadeIn": "time in which it takes over the joints",
+    "keyPoses fadeOut": "time in which it releases them, from `relax` to `end`",
+    "keyPoses warp": "[time warp](embrscript.md#time-warps) of the ways; without one, as hands reach",
+    "keyPose of keyPoses id": "makes it a sync point",
+    "keyPose of keyPoses time": "after the start of the sequence, at its preferred duration",
+    "position of a keyPose target": "from the pelvis: to the left, up, ahead, m",
+    "position of a keyPose joint": "of the hand; by default, the wrist",
+    "position of a keyPose offset": "from the joint, in its axes, m",
+    "orientation of a keyPose direction": "to the left, up, ahead",
+    "swivel of a keyPose angle": "of the elbow, degrees, away from the body",
+    "lookAt of a keyPose target": "from the pelvis: to the left, up, ahead, m",
+    "pose of a keyPose name": "of a file, `NAME.xml` (SkeletonPose) or `NAME.bvh`",
+    "pose of a keyPose influence": "share of the way from the rest pose",
     "wait duration": "never stretched",
     "wait max-wait": "the duration without other constraints; limits a wait for an event or for a time from outside",
     "wait event": "ends it; it takes no `end` and no `duration`",
@@ -143,10 +163,14 @@ _AROUND = """\
 ([liveliness](liveliness.md)) |
 | `generatefiller="true"` of `http://www.asap-project.org/bmlis` on `speech` | yes | fillers \
 [hold the floor](planners.md#holding-the-floor) after it |
+| `cast="Amber"` of `urn:reactive-realizer:1` on `bml` | yes | its character, if the scene has one of this name; \
+otherwise the first one |
 | `accompanies="b1"` of `urn:reactive-realizer:1` on `bml` | yes | its behaviors \
 [give way](liveliness.md#accompanying-blocks) to all others, and end with `b1` |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
+
+`keyPoses` is in the namespace `urn:reactive-realizer:1` ([key poses in BML](embrscript.md#key-poses-in-bml)).
 
 `procanimation`, `procanimationgesture`, `keyframe`, `noise`, `transition` and `audiofile` are in the namespace
 `http://hmi.ewi.utwente.nl/bmlt`. The motion of such an element, or of a `gesture` or `head`, can have additional sync
@@ -202,6 +226,40 @@ A reference to a behavior of another block requires `allowexternalrefs="true"`.
 """
 
 
+_EMBR_NOTES = {
+    "K_POSE_SEQUENCE": "a behavior for each body group, weight and clip",
+    "K_POSE": "a `keyPose` of each",
+    "ANIMATION": "`bmlt:keyframe`",
+    "NUCLEUS": "not realized: the expressivity of poses is not changed",
+    "POSITION_CONSTRAINT": "`position`",
+    "ORIENTATION_CONSTRAINT": "`orientation`",
+    "SWIVEL_CONSTRAINT": "`swivel`, kept for the `HOLD` of its pose",
+    "LOOK_AT_CONSTRAINT": "`lookAt`; a `JOINT` has no effect",
+    "POSE_TARGET": "`pose`",
+    "MORPH_TARGET": "`bmlt:facekeyframe`",
+    "SHADER": "`bmlt:facekeyframe`; `blushing` and `paling`",
+    "AUTONOMOUS_BEHAVIOR": "not realized: autonomous behaviors keep their parameters",
+}
+"""Element of EMBRScript -> what it is read as."""
+
+_EMBR = """
+## EMBRScript
+
+The elements of [EMBRScript](embrscript.md), their parameters, and what they are read as. `TIME_RESET` is read as
+`composition="REPLACE"`. The body groups `eyes`, `leye` and `reye` are not known, nor are the time warps of other
+families than TAN and EXP. What is not realized is named once for a script.
+
+"""
+
+
+def _embr() -> str:
+    names = {*EMBR_PARAMETERS, *(name for known in EMBR_CHILDREN.values() for name in known)}
+    if names != _EMBR_NOTES.keys():
+        raise ValueError(f"notes and elements of EMBRScript differ: {sorted(names ^ _EMBR_NOTES.keys())}")
+    rows = ((f"`{name}`", ", ".join(EMBR_PARAMETERS[name]), note) for name, note in _EMBR_NOTES.items())
+    return _EMBR + _table(("element", "parameters", "read as"), rows)
+
+
 def page() -> str:
     """The page as Markdown."""
     return asyncio.run(_page())
@@ -213,7 +271,18 @@ async def _page() -> str:
         lexemes = _lexemes(scene)
     attributes = [_own_table(each, engines[name] is not None) for name, each in ELEMENTS.items()]
     inside = [_attributes(title, attributes_of(data), realized) for title, data, realized in _INSIDE]
-    parts = [_block(), _elements(engines), _SYNC_POINTS, *attributes, *inside, _LEXEMES, lexemes, _AROUND, _DRAFTS]
+    parts = [
+        _block(),
+        _elements(engines),
+        _SYNC_POINTS,
+        *attributes,
+        *inside,
+        _LEXEMES,
+        lexemes,
+        _AROUND,
+        _DRAFTS,
+        _embr(),
+    ]
     return "".join([_HEAD, *parts])
 
 
@@ -245,7 +314,7 @@ def _example(element: Element) -> Behavior:
     name = f"{_PREFIXES.get(element.namespace, '')}{element.name}"
     needed = " ".join(f'{each.name}="{_sample(each)}"' for each in element.attributes if each.required)
     written = f"<{name} {needed}>{_CHILDREN.get(element.name, '')}</{name}>"
-    namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}"'
+    namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}" xmlns:rr="{OWN}"'
     (parsed,) = parse(f'<bml {namespaces} id="b">{written}</bml>', Limits())
     if parsed.block is None or not parsed.block.behaviors:
         raise ValueError(f"{written} is not a valid {element.name}: {parsed.problems}")
@@ -253,6 +322,8 @@ def _example(element: Element) -> Behavior:
 
 
 def _sample(attribute: Attribute) -> str:
+    if isinstance(attribute.type, Enumeration):
+        return str(next(iter(attribute.type.words)))
     return "1" if isinstance(attribute.type, Integer | Float) else "example"
 
 
@@ -291,7 +362,7 @@ def _default(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, tuple):
-        return ", ".join(value)
+        return (" " if value and isinstance(value[0], float) else ", ").join(map(_default, value))
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 

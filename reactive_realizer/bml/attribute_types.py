@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import ClassVar, Final
 
-from reactive_realizer.bml.faults import NotAnEvent, NotAnId, NotWhole, OutOfRange, UnknownWord
+from reactive_realizer.bml.faults import NotAnEvent, NotAnId, NotAVector, NotWhole, OutOfRange, UnknownWord
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.bml.vocabulary import Composition
@@ -17,6 +17,8 @@ from reactive_realizer.limits import Limits
 _SIGNED_NUMBER: Final = re.compile(rf"[+-]?{NUMBER}")
 _ID: Final = re.compile(r"[^\s:+]{1,200}")
 _OFFSET: Final = re.compile(rf"-{NUMBER}$")
+_FARTHEST: Final = 1e6
+"""Largest component of a vector."""
 _AFTER: Final = re.compile(r"\s*(APPEND|CHUNK)[-_]?AFTER\s*\((.*)\)\s*", re.IGNORECASE | re.DOTALL)
 
 
@@ -123,6 +125,21 @@ class Float:
     def read(self, text: str, limits: Limits) -> float:
         """The number."""
         return _within(_finite(text), self.low, self.high)
+
+
+@dataclass(frozen=True, slots=True)
+class Vector:
+    """Three finite numbers, separated by spaces."""
+
+    description: ClassVar[str] = "three numbers"
+
+    def read(self, text: str, limits: Limits) -> tuple[float, float, float]:
+        """The numbers."""
+        parts = text.split()
+        if len(parts) != 3:
+            raise RealizerError(NotAVector(size=len(parts)))
+        x, y, z = (_within(_finite(part), -_FARTHEST, _FARTHEST) for part in parts)
+        return x, y, z
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,8 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS, Element
 from reactive_realizer.bml.extensions import Emit, FaceKeyframe, Keyframe, ParameterValueChange
 from reactive_realizer.bml.faults import ProcedureInBlock, UnknownBehavior
+from reactive_realizer.bml.key_pose_reader import read_key_poses
+from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.speech_descriptions import read_speech_description, unspoken, unused_times
 from reactive_realizer.bml.trees import (
     PARAMETER,
@@ -47,6 +49,7 @@ _READ_PARTS: Final[Mapping[type[Behavior], Callable[[Tree, BlockSource, list[Fau
     Keyframe: read_interpolator,
     FaceKeyframe: read_interpolator,
     Emit: read_event,
+    KeyPoses: read_key_poses,
 }
 
 
@@ -65,7 +68,7 @@ def read_behavior(tree: Tree, source: BlockSource, order: int, required: bool, n
     """
     element = _element_of(tree)
     if element is None and is_core(tree):
-        known = tuple(name for name, each in ELEMENTS.items() if not each.continuous)
+        known = tuple(name for name, each in ELEMENTS.items() if each.core)
         raise RealizerError(source.located(tree, UnknownBehavior(element=name_of(tree), known=known)))
     place = {"order": order, "required": required}
     return _known(tree, element, source, place, notes) if element else _foreign(tree, source, place)
@@ -97,8 +100,8 @@ def _known(tree: Tree, element: Element, source: BlockSource, place: dict[str, A
 
 
 def _own_points(tree: Tree, element: Element, source: BlockSource) -> list[str]:
-    """The attributes of a BMLT motion that tie sync points of its file: those that hold a reference."""
-    if not (element.continuous and element.behavior.OPEN_POINTS):
+    """The attributes of a motion in an extension that tie sync points of its own: those that hold a reference."""
+    if element.core or not element.behavior.OPEN_POINTS:
         return []
     known = {*element.names, *element.sync_points}
     return [name for name in names_in(tree) if name not in known and source.holds_ref(tree, name)]

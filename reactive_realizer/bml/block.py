@@ -1,6 +1,6 @@
 """Blocks, procedures and their constraints, and the result of reading one."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Final
@@ -20,6 +20,10 @@ PROCEDURES: Final = frozenset({DEFINE_PROC, USE_PROC})
 
 ACCOMPANIES: Final = (OWN, "accompanies")
 """The attribute of a block that accompanies another one."""
+CAST: Final = (OWN, "cast")
+"""The attribute of a block for a character that the first one of a scene stands in for if the scene lacks it."""
+BLOCK_EXTENSIONS: Final = frozenset({ACCOMPANIES, CAST})
+"""The attributes of blocks in our namespace."""
 
 
 class OrderKind(StrEnum):
@@ -153,6 +157,15 @@ class BehaviorBlock:
     def accompanies(self) -> str | None:
         """Id of the block that it accompanies: its behaviors give way to all others, and end with that block."""
         return self.extensions.get(ACCOMPANIES)
+
+    def played_by(self, characters: Sequence[str]) -> str:
+        """The id of its character.
+
+        Args:
+            characters: of the scene; the first one takes blocks that name none, or that are cast for one who is absent.
+        """
+        cast = self.extensions.get(CAST)
+        return self.character or (cast if cast is not None and cast in characters else characters[0])
 
     @property
     def refs(self) -> tuple[SyncRef, ...]:

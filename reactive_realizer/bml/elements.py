@@ -40,16 +40,17 @@ from reactive_realizer.bml.extensions import (
     ProcAnimationGesture,
     Transition,
 )
+from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """The element of a behavior in BML 1.0, BMLA or BMLT.
+    """The element of a behavior in BML 1.0, BMLA, BMLT or our own extensions.
 
     Attributes:
         name: local name.
-        namespace: of BML 1.0, its core extensions, BMLA or BMLT.
+        namespace: of BML 1.0, its core extensions, BMLA, BMLT or our own.
         behavior: class of the behavior.
         attributes: its attributes other than sync points.
     """
@@ -65,6 +66,11 @@ class Element:
         return tuple(name for each in self.attributes for name in each.spellings)
 
     @property
+    def core(self) -> bool:
+        """Whether the element belongs to BML 1.0 or its core extensions."""
+        return self.namespace in (BML, BML_EXT)
+
+    @property
     def continuous(self) -> bool:
         """Whether the element belongs to BMLA or BMLT, the extensions for continuous interaction."""
         return self.namespace in CONTINUOUS
@@ -72,7 +78,7 @@ class Element:
     @property
     def namespaces(self) -> tuple[str, ...]:
         """The namespaces in which it may be written: none for BML 1.0 too, that of BMLT for BMLA too."""
-        if not self.continuous:
+        if self.core:
             return ("", BML, BML_EXT)
         return CONTINUOUS if self.namespace == BMLA else (self.namespace,)
 
@@ -128,6 +134,7 @@ _BEHAVIORS = (
     FaceFap,
     FacePlutchik,
     FaceKeyframe,
+    KeyPoses,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})

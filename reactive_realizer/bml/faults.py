@@ -178,6 +178,24 @@ class NotAnId(Fault):
     )
 
 
+class PoseTooEarly(ParsingFault):
+    """A key pose before the end of the one before it, in s."""
+
+    code = "pose-too-early"
+    template = "the key pose at {time} s is before the end of the one before it, at {earliest} s"
+    compared = ("time", "earliest")
+    time: float
+    earliest: float
+
+
+class NotAVector(Fault):
+    """A value that is not a vector."""
+
+    code = "not-a-vector"
+    template = "a vector has three numbers, not {size}"
+    size: int
+
+
 class NotWhole(Fault):
     """A value that is not a whole number."""
 

@@ -80,6 +80,46 @@ class PosePart(StrEnum):
     WHOLEBODY = "WHOLEBODY"
 
 
+class BodyGroup(StrEnum):
+    """The joints that a sequence of key poses moves. HEAD_NECK and those after it include the ones before them."""
+
+    LEFT_ARM = "LEFT_ARM"
+    RIGHT_ARM = "RIGHT_ARM"
+    LEFT_HAND = "LEFT_HAND"
+    RIGHT_HAND = "RIGHT_HAND"
+    HEAD = "HEAD"
+    HEAD_NECK = "HEAD_NECK"
+    HEAD_CHEST = "HEAD_CHEST"
+    HEAD_BACK = "HEAD_BACK"
+    TRUNK = "TRUNK"
+    SHOULDERS = "SHOULDERS"
+    WHOLEBODY = "WHOLEBODY"
+
+
+class BodyAxis(StrEnum):
+    """An axis of a hand or of the head, for its orientation."""
+
+    PALM = "PALM"
+    """Out of the palm."""
+    FINGERS = "FINGERS"
+    """From the wrist along the hand."""
+    THUMB = "THUMB"
+    """To the side of the thumb."""
+    FACE = "FACE"
+    """Out of the face."""
+    CROWN = "CROWN"
+    """Out of the top of the head."""
+    LEFT_EAR = "LEFT_EAR"
+    """Out of the left ear."""
+
+
+class WarpKind(StrEnum):
+    """A family of time warps."""
+
+    TAN = "TAN"
+    EXP = "EXP"
+
+
 class FacePart(StrEnum):
     """What a keyframe animation of the face moves: morph targets, action units, or facial animation parameters."""
 

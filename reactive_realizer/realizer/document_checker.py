@@ -7,7 +7,7 @@ from typing import NamedTuple
 from reactive_realizer.bml.attribute_types import IdList
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
-from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed, Problem
+from reactive_realizer.bml.block import BLOCK_EXTENSIONS, BehaviorBlock, DefineProc, Parsed, Problem
 from reactive_realizer.bml.extensions import ParameterValueChange
 from reactive_realizer.bml.faults import ForeignAttribute, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS
@@ -192,7 +192,7 @@ def _foreign_attributes(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal)
     The attributes of a foreign behavior without an engine are not reported, because only an engine can judge them.
     """
     if isinstance(block, BehaviorBlock):
-        yield from (_problem(fault, block) for fault in _foreign(block.extensions))
+        yield from (_problem(fault, block) for fault in _foreign(block.extensions.keys() - BLOCK_EXTENSIONS))
     for behavior in block.behaviors:
         engine = rehearsal.engines.get(behavior.id)
         known = engine.extensions if engine is not None else frozenset()

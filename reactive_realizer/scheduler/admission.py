@@ -120,7 +120,7 @@ class Admission:
             failed: whether something required could not be read, so that the block ends at once.
             client: that sent it, and has to leave others as many blocks as it has; empty for none.
         """
-        key = BlockKey(block.character or self._characters[0], block.id)
+        key = BlockKey(block.played_by(self._characters), block.id)
         fault = self._rejection(key, block, client)
         if fault is not None:
             return fault.located(block.location.line, block.location.column)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
-from reactive_realizer.bml.block import ACCOMPANIES
+from reactive_realizer.bml.block import BLOCK_EXTENSIONS
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
@@ -293,7 +293,7 @@ class BlockLifecycle:
         arrived, client, accompanied = entry.arrived, entry.lane.client, composition.accompanied
         block = BMLBlock(self._board, key, description, self._arrivals, arrived, predecessors, client, accompanied)
         self._blocks.add(block)
-        self._feedback.foreign_attributes(key, description, {ACCOMPANIES})
+        self._feedback.foreign_attributes(key, description, BLOCK_EXTENSIONS)
         return block
 
     def _fails_by(self, block: BMLBlock, losses: Sequence[Loss], now: GlobalTime) -> bool:

@@ -108,7 +108,7 @@ class EntryQueue:
     def add(self, parsed: Parsed, client: str, now: GlobalTime, fault: Fault | None = None) -> Lane:
         """Add what arrives from a client now, with why it is to be refused; its lane."""
         self._arrived += 1
-        character = (parsed.block and parsed.block.character) or self._characters[0]
+        character = parsed.block.played_by(self._characters) if parsed.block else self._characters[0]
         lane = Lane(client, character if character in self._characters else self._characters[0])
         names = frozenset(_names(parsed))
         entry = Entry(self._arrived, now, parsed, character, lane, names, names.union(_needed(parsed)), fault)

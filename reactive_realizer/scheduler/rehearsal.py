@@ -75,7 +75,8 @@ class _Rehearsing:
     """A rehearsal that is going on; for an unknown character, no behavior has an engine."""
 
     def __init__(self, block: BehaviorBlock | DefineProc, routing: EngineRouting) -> None:
-        self.character = (isinstance(block, BehaviorBlock) and block.character) or routing.characters[0]
+        characters = routing.characters
+        self.character = block.played_by(characters) if isinstance(block, BehaviorBlock) else characters[0]
         known = self.character in routing.characters
         self.routed = routing.route(self.character, block.behaviors) if known else {}
         self._block = block

@@ -6,7 +6,7 @@ import pytest
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN
 from reactive_realizer.limits import Limits
 
 Read = Callable[[str], Parsed]
@@ -14,11 +14,12 @@ Read = Callable[[str], Parsed]
 
 @pytest.fixture
 def read() -> Read:
-    """Reads the content of a block b, with the prefixes ext, bmla and bmlt declared."""
+    """Reads the content of a block b, with the prefixes ext, bmla, bmlt and rr declared."""
 
     def read_inside(inside: str) -> Parsed:
         (parsed,) = parse(
-            f'<bml xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}" id="b">{inside}</bml>',
+            f'<bml xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}" xmlns:rr="{OWN}" id="b">'
+            f"{inside}</bml>",
             Limits(),
         )
         return parsed

@@ -44,8 +44,10 @@ from reactive_realizer.bml.extensions import (
     Trajectory,
     Transition,
 )
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, Location
+from reactive_realizer.bml.key_poses import KeyPoses
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN, Location
 from reactive_realizer.bml.vocabulary import (
+    BodyGroup,
     Influence,
     InterruptSpeech,
     Mode,
@@ -53,6 +55,7 @@ from reactive_realizer.bml.vocabulary import (
     PosePart,
     Side,
     StanceType,
+    WarpKind,
 )
 
 Block = Callable[[str], BehaviorBlock]
@@ -64,7 +67,9 @@ SHIFT = ("start", "end")
 PARTS = '<faceLexeme lexeme="OPEN_MOUTH" amount="1"/><ext:faceFacs au="12" side="LEFT"/>'
 STANCE = '<stance type="SITTING"/><pose part="ARMS" lexeme="ARMS_OPEN"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>'
 CHANGE = '<bmla:trajectory type="linear" initialValue="-0.5" targetValue="90"/>'
-PREFIXES = {BML: "", BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:"}
+PREFIXES = {BML: "", BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:", OWN: "rr:"}
+
+POSE = '<keyPose time="1"><lookAt target="0 0 1"/></keyPose>'
 
 WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = {
     '<speech id="x"><text>Hi</text></speech>': (Speech, {"text": "Hi", "marks": ()}, SHIFT),
@@ -213,6 +218,11 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         {"kind": "CompoundController", "controller": "limp", "persistent": False},
         SHIFT,
     ),
+    f'<rr:keyPoses id="x" group="HEAD" fadeIn="0.2" fadeOut="0.3" warp="EXP" steepness="3">{POSE}</rr:keyPoses>': (
+        KeyPoses,
+        {"group": BodyGroup.HEAD, "fade_in": 0.2, "fade_out": 0.3, "warp": WarpKind.EXP, "steepness": 3.0},
+        ("start", "relax", "end"),
+    ),
 }
 
 
@@ -254,12 +264,18 @@ def test_the_table_has_names_types_defaults_and_sync_points() -> None:
 def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block, subtests: pytest.Subtests) -> None:
     for element in ELEMENTS.values():
         with subtests.test(element.name):
-            needed = {"text": "<text>Hi</text>", "faceLexeme": PARTS, "stance": STANCE, "trajectory": CHANGE}
+            needed = {
+                "text": "<text>Hi</text>",
+                "faceLexeme": PARTS,
+                "stance": STANCE,
+                "trajectory": CHANGE,
+                "keyPose": POSE,
+            }
             inside = "".join(needed.get(child, "") for child in element.children)
             prefix = PREFIXES[element.namespace]
             values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
             values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
-            values |= {"filename": "clap.wav"}
+            values |= {"filename": "clap.wav", "group": "HEAD"}
             values |= {
                 "targetname": "grin",
                 "intensity": "0.5",

@@ -21,6 +21,7 @@ from reactive_realizer.bml.behaviors import (
     PostureShift,
 )
 from reactive_realizer.bml.extensions import MOTIONS
+from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
@@ -87,6 +88,7 @@ class AnimationEngine(DefaultEngine):
     """Moves the joints of one figure."""
 
     behaviors = MOTIONS | {
+        KeyPoses,
         Gesture,
         Head,
         HeadDirectionShift,

@@ -197,6 +197,41 @@ class JointsLeftOut(PlayingFault):
     element: str
 
 
+class NoGroup(CreationFault):
+    """No body group has the name."""
+
+    code = "no-group"
+    template = "there is no body group '{group}'; available: {known}"
+    unknown = "group"
+    group: str
+    known: tuple[str, ...]
+
+
+class NotOfGroup(CreationFault):
+    """A goal of a key pose that the joints of its group cannot have."""
+
+    code = "not-of-group"
+    template = "the joints of {group} have no {goal}; possible are {known}"
+    goal: str
+    group: str
+    known: tuple[str, ...]
+
+
+class NoDirection(CreationFault):
+    """An orientation along a vector without length."""
+
+    code = "no-direction"
+    template = "a vector of length 0 has no direction"
+
+
+class NoGoals(CreationFault):
+    """Key poses of which no goal can be met."""
+
+    code = "no-goals"
+    template = "none of its goals can be met: {reasons}"
+    reasons: tuple[str, ...]
+
+
 class NotReachable(PlayingFault):
     """A joint that cannot reach a position; ``distance`` in m."""
 

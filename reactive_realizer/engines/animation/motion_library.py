@@ -33,6 +33,7 @@ from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
 from reactive_realizer.engines.animation.motions.controller import ControllerMaker
 from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
 from reactive_realizer.engines.animation.motions.gesture import GestureMaker
+from reactive_realizer.engines.animation.motions.key_poses import KeyPosesMaker
 from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
 from reactive_realizer.engines.animation.motions.noise import NoiseMaker
@@ -58,6 +59,7 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "Keyframe": KeyframeMaker,
         "noise": NoiseMaker,
         "transition": TransitionMaker,
+        "key-poses": KeyPosesMaker,
         "locomotion": LocomotionMaker,
         "posture": PostureMaker,
         "posture-shift": PostureMaker,
@@ -208,7 +210,7 @@ class MotionLibrary:
         notes = filter(
             None, (unused_behavior_parameters(spec, behavior, motion), missing_joints_fault(spec, behavior, motion))
         )
-        candidate = Candidate(motion, _names(spec, motion), group, yields, tuple(notes))
+        candidate = Candidate(motion, _names(spec, motion), group, yields, (*notes, *motion.notes))
         _check_values(candidate, parameters)
         return candidate
 

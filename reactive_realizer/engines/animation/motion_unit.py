@@ -139,6 +139,7 @@ class MotionUnit(ABC):
         jumped: whether its goal jumped in the last pose, for a reason of its own.
         steps: whether the feet may turn the figure for it (`step_turn`).
         fault: that occurred while playing; None if there is none.
+        notes: faults of parts that are left out.
     """
 
     kind: LayerKind
@@ -164,6 +165,7 @@ class MotionUnit(ABC):
     steps: bool = False
     joined: GlobalTime | None = None
     fault: Fault | None = None
+    notes: tuple[Fault, ...] = ()
 
     @property
     def parameter_names(self) -> frozenset[str]:

@@ -6,12 +6,15 @@ from functools import lru_cache, partial
 from pathlib import Path
 
 from reactive_realizer.bml.extensions import Keyframe
+from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.feet import grounded
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.vector import add
-from reactive_realizer.engines.animation.faults import NoJoints
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.faults import NoGroup, NoJoints
 from reactive_realizer.engines.animation.inertialization import InertializedStart, start_duration
+from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
 from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.capture import Capture
 from reactive_realizer.engines.animation.keyframe.clip import Clip
@@ -83,6 +86,12 @@ def _capture(path: Path, changed: int) -> Capture:
 FILTER = "filter"
 """Parameter for the cutoff frequency of the low-pass filter, Hz."""
 
+GROUP = "group"
+"""Parameter for the body group to which the motion is restricted."""
+
+FADE_IN, FADE_OUT = "fadeIn", "fadeOut"
+"""Parameters for the shares of its duration in which its weight rises and falls."""
+
 
 class KeyframeMotionUnit(MotionUnit):
     """Plays a clip, by default with its own duration.
@@ -92,16 +101,19 @@ class KeyframeMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.FULL_BODY
-    fixed = FILE_PARAMETERS | {FILTER}
+    fixed = FILE_PARAMETERS | {FILTER, GROUP, FADE_IN, FADE_OUT}
     predictability = Predictability.ALWAYS
 
-    def __init__(self, clip: Clip, rest: Body, lacking: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self, clip: Clip, rest: Body, lacking: frozenset[str] = frozenset(), fades: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
         """Prepare a motion.
 
         Args:
             clip: of joints that the figure has.
             rest: the figure at rest.
             lacking: requested joints that the clip or the figure lacks.
+            fades: shares of its duration in which its weight rises and falls.
         """
         self.parameters = {}
         self.lacking = lacking
@@ -110,6 +122,7 @@ class KeyframeMotionUnit(MotionUnit):
         self.preferred_duration = clip.duration
         self.entrance = start_duration(clip.duration)
         self._clip = clip
+        self._fades = fades
         self.key_positions = self._keys()
         self.shortest = shortest_clip_parts(clip, rest, self.key_positions)
         self.exits = tuple(sync for sync in self.key_positions if sync in clip.points and clip.points[sync].leave)
@@ -128,7 +141,13 @@ class KeyframeMotionUnit(MotionUnit):
     def pose(self, moment: Moment) -> MotionPose:
         """Return the pose of the clip, inertialized."""
         posed = self._posed(moment.phase)
-        return posed if self._arrival is None else self._arrival(posed, moment.phase)
+        if self._arrival is not None:
+            posed = self._arrival(posed, moment.phase)
+        return posed if self._fades == (0.0, 0.0) else posed._replace(weight=self._weight(moment.phase))
+
+    def _weight(self, phase: float) -> float:
+        rising, falling = self._fades
+        return minimum_jerk(share(phase, 0.0, rising)) * minimum_jerk(share(1.0 - phase, 0.0, falling))
 
     def _posed(self, phase: float) -> MotionPose:
         time = self._clip.times[0] + phase * self._clip.duration
@@ -142,13 +161,14 @@ class KeyframeMotionUnit(MotionUnit):
 
 _log = logging.getLogger(__name__)
 
-_RANGES = {FILTER: Range(0.0, 1e6)}
+_RANGES = {FILTER: Range(0.0, 1e6), FADE_IN: Range(0.0, 1.0), FADE_OUT: Range(0.0, 1.0)}
 
 
 class KeyframeMaker:
     """Makes motions of keyframes in BML or in files.
 
-    Parameters are `mirror`, then `joints`, a selection (thesis C.1.2), and `filter`, a low-pass, Hz (3.2.2.2).
+    Parameters are `mirror`, then `joints`, a selection (thesis C.1.2), or `group`; `filter`, a low-pass, Hz (3.2.2.2);
+    `fadeIn` and `fadeOut`.
     """
 
     def __init__(self, context: MakerContext) -> None:
@@ -159,7 +179,7 @@ class KeyframeMaker:
         """Make a motion."""
         clip = self._clip(request)
         clip = clip.mirrored() if request.mirror else clip
-        chosen = request.joints or frozenset(clip.joints)
+        chosen = request.joints or self._group(request, clip)
         clip, lacking = clip.only(chosen), chosen.difference(clip.joints)
         clip = clip.folded(self._skeleton.joints)
         there = [joint for joint in clip.joints if joint in self._skeleton]
@@ -168,7 +188,23 @@ class KeyframeMaker:
             raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element=request.behavior.name))
         if lacking:
             _log_once(clip.name, ", ".join(sorted(lacking)))
-        return KeyframeMotionUnit(clip.only(there), self._context.rest.body, lacking)
+        values = parameter_values(request.parameters, _RANGES)
+        fades = values.get(FADE_IN, 0.0), values.get(FADE_OUT, 0.0)
+        return KeyframeMotionUnit(clip.only(there), self._context.rest.body, lacking, fades)
+
+    def _group(self, request: MotionRequest, clip: Clip) -> frozenset[str]:
+        """Return the joints of the clip that are in the requested group, by default all.
+
+        Raises:
+            RealizerError: there is no such group, or the clip has none of its joints.
+        """
+        name = request.parameters.get(GROUP)
+        if name is None:
+            return frozenset(clip.joints)
+        if name not in tuple(BodyGroup):
+            raise RealizerError(NoGroup(group=name, known=tuple(BodyGroup)))
+        joints = frozenset(group_joints(BodyGroup(name), self._skeleton))
+        return joints & frozenset(clip.joints) or joints
 
     def preload(self, request: MotionRequest) -> Callable[[], object] | None:
         """Return the loading work; None for keyframes in BML, which are short."""

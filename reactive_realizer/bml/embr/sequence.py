@@ -1,0 +1,266 @@
+"""Reads a sequence of key poses: a behavior for each body group, each morph target and shader, and each clip."""
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from lxml import etree
+
+from reactive_realizer.bml.attribute_types import Id
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.embr.faults import BadValue, UnknownName
+from reactive_realizer.bml.embr.goals import GOALS, read_goal
+from reactive_realizer.bml.embr.syntax import AUTONOMOUS, CLIP, MORPH, Node
+from reactive_realizer.bml.embr.timeline import Timed, sequence_start, timed
+from reactive_realizer.bml.embr.values import Notes
+from reactive_realizer.bml.embr.words import MORPHS, SHADERS, Expression
+from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
+from reactive_realizer.bml.key_poses import Goal, KeyPose, KeyPoses
+from reactive_realizer.bml.names import BMLT, OWN, Location, is_sync_id
+from reactive_realizer.bml.sync_ref import SyncRef
+from reactive_realizer.bml.time_warps import warped
+from reactive_realizer.bml.vocabulary import BodyGroup, FacePart, WarpKind
+from reactive_realizer.errors import RealizerError, quoted
+from reactive_realizer.limits import Limits
+
+_SAMPLES = 10
+"""Number of parts of a warped way of a weight, each of which is even."""
+
+Warped = tuple[WarpKind | None, float]
+"""A time warp and its steepness."""
+
+
+class _Step(NamedTuple):
+    """What one key pose asks of one body group or weight.
+
+    Attributes:
+        at: its times.
+        value: of a weight.
+        goals: of joints.
+        id: of its sync point.
+        warp: of the way to it.
+        place: of its first constraint.
+    """
+
+    at: Timed
+    value: float
+    goals: tuple[Goal, ...]
+    id: str | None
+    warp: Warped
+    place: Location
+
+
+class SequenceReader:
+    """Reads one sequence.
+
+    Attributes:
+        behaviors: that it means, each with its id and start; their order counts from 0.
+    """
+
+    def __init__(self, node: Node, name: str, notes: Notes) -> None:
+        """Read a sequence.
+
+        Args:
+            node: its element.
+            name: of the sequence; ids of its behaviors begin with it.
+            notes: receives the faults of what is left out.
+        """
+        self._node, self._name, self._notes = node, name, notes
+        self._start = sequence_start(node, notes)
+        self._fades = self._fade("FADE_IN"), self._fade("FADE_OUT")
+        self._warp = self._warp_of(node)
+        self._groups: dict[BodyGroup, list[_Step]] = {}
+        self._weights: dict[tuple[str, str], list[_Step]] = {}
+        self._clips: list[Timed] = []
+        for each in timed(node, self._start, notes):
+            if each.node.name == CLIP:
+                self._clips.append(each)
+            else:
+                self._take(each)
+
+    def behaviors(self) -> Iterator[Behavior]:
+        """The behaviors of the sequence."""
+        for group, steps in self._groups.items():
+            yield self._key_poses(group, steps)
+        for (kind, key), steps in self._weights.items():
+            yield self._face(kind, key, steps)
+        for number, clip in enumerate(self._clips, 1):
+            try:
+                yield self._clip(clip, number)
+            except RealizerError as refused:
+                self._notes.faults.append(refused.fault)
+
+    def _fade(self, name: str) -> float:
+        try:
+            return self._notes.seconds(self._node, name, 0.0)
+        except RealizerError as refused:
+            self._notes.faults.append(refused.fault)
+            return 0.0
+
+    def _warp_of(self, *nodes: Node) -> Warped:
+        """The time warp of the first of some elements that has one."""
+        for node in nodes:
+            if "TIME_WARP" in node.values:
+                try:
+                    return self._notes.warp(node)
+                except RealizerError as refused:
+                    self._notes.faults.append(refused.fault)
+        return None, 1.0
+
+    # --- key poses
+
+    def _take(self, at: Timed) -> None:
+        if "NUCLEUS" in at.node.values:
+            place = at.node.values["NUCLEUS"].location
+            self._notes.left_out("NUCLEUS", "the expressivity of poses is not changed", place)
+        groups: dict[BodyGroup, list[tuple[Node, Goal]]] = {}
+        for constraint in at.node.children:
+            try:
+                if constraint.name in GOALS:
+                    group, goal = self._notes.body_group(constraint), read_goal(constraint, self._notes)
+                    groups.setdefault(group, []).append((constraint, goal))
+                elif constraint.name == AUTONOMOUS:
+                    key = self._notes.text(constraint, "BEHAVIOR_KEY")
+                    reason = "autonomous behaviors keep their parameters"
+                    self._notes.left_out(f"AUTONOMOUS_BEHAVIOR {quoted(key)}", reason, constraint.location)
+                else:
+                    self._take_weight(at, constraint)
+            except RealizerError as refused:
+                self._notes.faults.append(refused.fault)
+        for group, read in groups.items():
+            nodes = [node for node, _ in read]
+            steps = self._groups.setdefault(group, [])
+            goals = tuple(goal for _, goal in read)
+            warp = self._warp_of(*nodes, at.node)
+            steps.append(_Step(at, 0.0, goals, self._feedback(nodes, steps), warp, nodes[0].location))
+
+    def _take_weight(self, at: Timed, node: Node) -> None:
+        kind = "MORPH" if node.name == MORPH else "SHADER"
+        key = self._notes.text(node, f"{kind}_KEY")
+        value = self._notes.number(node, f"{kind}_VALUE", low=-1.0, high=10.0)
+        if kind == "SHADER" and key not in SHADERS:
+            place = node.values["SHADER_KEY"].location
+            fault = UnknownName(kind="SHADER_KEY", name=quoted(key), known=tuple(SHADERS))
+            raise RealizerError(fault.located(place.line, place.column))
+        steps = self._weights.setdefault((kind, key), [])
+        warp = self._warp_of(node, at.node)
+        steps.append(_Step(at, value, (), self._feedback([node], steps), warp, node.location))
+
+    def _feedback(self, nodes: list[Node], steps: list[_Step]) -> str | None:
+        """The id of the sync point of some constraints on the same joints at the same time."""
+        given = [node.values["FEEDBACK_ID"] for node in nodes if "FEEDBACK_ID" in node.values]
+        if not given:
+            return None
+        text = given[0].text
+        taken = {*KeyPoses.SYNC_POINTS, *(step.id for step in steps)}
+        try:
+            if text in taken or not is_sync_id(Id().read(text, Limits())):
+                raise RealizerError(BadValue(parameter="FEEDBACK_ID", value=quoted(text), reason=""))
+        except RealizerError:
+            reason = "it has to be a name that no other pose of this group has"
+            self._notes.add(BadValue(parameter="FEEDBACK_ID", value=quoted(text), reason=reason), given[0].location)
+            return None
+        return text
+
+    def _key_poses(self, group: BodyGroup, steps: list[_Step]) -> Behavior:
+        ends = [*(step.at.begins for step in steps[1:]), steps[-1].at.left]
+        poses = tuple(
+            KeyPose(
+                time=step.at.reached,
+                hold=round(end - step.at.reached, 6),
+                id=step.id,
+                warp=step.warp[0],
+                steepness=step.warp[1],
+                goals=step.goals,
+                location=step.place,
+            )
+            for step, end in zip(steps, ends, strict=True)
+        )
+        kind, steepness = self._warp
+        return KeyPoses(
+            **self._common(group.value.lower(), "keyPoses", OWN, steps[0].place),
+            syncs=self._syncs(self._start),
+            group=group,
+            fade_in=self._fades[0],
+            fade_out=self._fades[1],
+            warp=kind,
+            steepness=steepness,
+            poses=poses,
+        )
+
+    # --- face
+
+    def _face(self, kind: str, key: str, steps: list[_Step]) -> Behavior:
+        if kind == "SHADER":
+            expression = Expression(FacePart.MORPH, {SHADERS[key]: 1.0})
+        else:
+            expression = MORPHS.get(key, Expression(FacePart.MORPH, {key: 1.0}))
+        return FaceKeyframe(
+            **self._common(_id_of(key), "facekeyframe", BMLT, steps[0].place),
+            syncs=self._syncs(self._start),
+            type=expression.type,
+            interpolator=self._interpolator(expression, steps),
+        )
+
+    def _interpolator(self, expression: Expression, steps: list[_Step]) -> str:
+        rows = {0.0: 0.0}
+        last = 0.0
+        for step in steps:
+            rows[step.at.begins] = last
+            rows |= self._way(step, last)
+            rows[step.at.left] = last = step.value
+        if self._fades[1] > 0.0:
+            rows[round(steps[-1].at.left + self._fades[1], 6)] = 0.0
+        element = etree.Element("FaceInterpolator", parts=" ".join(expression.parts))
+        for step in steps:
+            if step.id is not None:
+                etree.SubElement(element, "KeyPosition", id=step.id, time=f"{step.at.reached:g}")
+        lines = (
+            " ".join([f"{time:.6g}", *(f"{share * value:.4g}" for share in expression.parts.values())])
+            for time, value in rows.items()
+        )
+        element.text = "\n" + "\n".join(lines) + "\n"
+        return etree.tostring(element, encoding="unicode")
+
+    def _way(self, step: _Step, last: float) -> Mapping[float, float]:
+        """The weights on the way to a pose, by time."""
+        kind, steepness = step.warp if step.warp[0] is not None else self._warp
+        shares = [number / _SAMPLES for number in range(1, _SAMPLES)] if kind is not None else []
+        way = {step.at.begins + share * (step.at.reached - step.at.begins): share for share in shares}
+        values = {
+            round(time, 6): last + warped(share, kind, steepness) * (step.value - last)
+            for time, share in way.items()
+            if kind is not None
+        }
+        return {**values, step.at.reached: step.value}
+
+    # --- clips
+
+    def _clip(self, clip: Timed, number: int) -> Behavior:
+        name, group = self._notes.text(clip.node, "ANIMATION_CLIP"), self._notes.body_group(clip.node)
+        length = clip.reached - clip.begins
+        shares = {"fadeIn": self._fades[0] / length, "fadeOut": self._fades[1] / length}
+        parameters = {fade: f"{min(1.0, share):.4g}" for fade, share in shares.items() if share > 0.0}
+        if group is not BodyGroup.WHOLEBODY:
+            parameters["group"] = group.value
+        return Keyframe(
+            **self._common(f"animation{number}", "keyframe", BMLT, clip.node.location),
+            syncs=self._syncs(self._start + clip.begins, self._start + clip.reached),
+            animation=name,
+            parameters=MappingProxyType(parameters),
+        )
+
+    # --- what all have
+
+    def _common(self, part: str, element: str, namespace: str, place: Location) -> dict[str, Any]:
+        name = f"{self._name}_{part}"
+        return {"id": name, "name": element, "namespace": namespace, "location": place, "order": 0}
+
+    def _syncs(self, start: float, end: float | None = None) -> Mapping[str, SyncRef]:
+        points = {"start": start} | ({} if end is None else {"end": end})
+        return MappingProxyType({sync: SyncRef(None, None, None, round(time, 6)) for sync, time in points.items()})
+
+
+def _id_of(key: str) -> str:
+    """A name for a sync reference."""
+    return "".join(letter if letter.isalnum() or letter in "_-." else "_" for letter in key)[:60]

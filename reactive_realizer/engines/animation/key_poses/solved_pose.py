@@ -1,0 +1,82 @@
+"""The state of a group of joints that meets all goals of a key pose."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.two_bone_ik import Arm
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmPose
+from reactive_realizer.engines.animation.key_poses.head_pose import HeadPose
+
+
+class Missed(NamedTuple):
+    """A joint that is not at its place.
+
+    Attributes:
+        joint: H-Anim name.
+        distance: from there, m.
+        share: that distance in lengths of the limb.
+    """
+
+    joint: str
+    distance: float
+    share: float
+
+
+class Solution(NamedTuple):
+    """The rotations of a key pose.
+
+    Attributes:
+        rotations: of its joints, local to their parents.
+        missed: a goal that is out of reach; None if there is none.
+    """
+
+    rotations: Mapping[str, Quat]
+    missed: Missed | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedPose:
+    """The goals of a key pose, ready to be met.
+
+    Goals of an arm and of a head come before stored rotations.
+
+    Attributes:
+        stored: rotations of joints, as in a file.
+        influence: share of the way from the rest pose to the stored rotations.
+        arm: goals of an arm.
+        head: goals of a head.
+    """
+
+    stored: Mapping[str, Quat] = field(default_factory=dict)
+    influence: float = 1.0
+    arm: ArmPose | None = None
+    head: HeadPose | None = None
+
+    @property
+    def joints(self) -> frozenset[str]:
+        """The joints that it turns."""
+        parts = (self.stored, self.arm.joints if self.arm else (), self.head.joints if self.head else ())
+        return frozenset(joint for part in parts for joint in part)
+
+    def solve(self, body: Body, rest: Mapping[str, Quat]) -> Solution:
+        """Return the rotations of its joints.
+
+        Args:
+            body: whose trunk carries arms and head.
+            rest: rotations of its joints without goals.
+        """
+        rotations = {joint: slerp(rest[joint], goal, self.influence) for joint, goal in self.stored.items()}
+        missed = None
+        if self.head is not None:
+            rotations |= self.head.solve(body, rest)
+        if self.arm is not None:
+            end = f"{self.arm.side}_wrist"
+            solved = self.arm.solve(body, rotations.get(end, rest[end]))
+            rotations |= {joint: solved.rotations[joint] for joint in self.arm.joints}
+            if solved.missing > 0.0:
+                reach = Arm.of(body.skeleton, self.arm.side).reach
+                missed = Missed(end, solved.missing, solved.missing / reach)
+        return Solution(rotations, missed)

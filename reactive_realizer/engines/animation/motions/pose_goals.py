@@ -1,0 +1,190 @@
+"""Turns the goals of key poses into what a figure can do."""
+
+import math
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Final
+
+from reactive_realizer.binding.asset_file import first_asset
+from reactive_realizer.bml.key_poses import Goal, LookAtGoal, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
+from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.joints import other_side
+from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
+from reactive_realizer.embodiment.vector import Vec3, add, length, subtract, unit
+from reactive_realizer.engines.animation.faults import NoDirection, NotOfGroup
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmPose, Direction, hand_axes
+from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
+from reactive_realizer.engines.animation.key_poses.head_pose import HEAD_AXES, WEIGHTS, HeadPose
+from reactive_realizer.engines.animation.key_poses.solved_pose import SolvedPose
+from reactive_realizer.engines.animation.keyframe.keyframe_files import read_skeleton_pose
+from reactive_realizer.engines.animation.motion_maker import MakerContext
+from reactive_realizer.engines.animation.motions.keyframe import load_clip
+from reactive_realizer.errors import Fault, RealizerError
+
+_ARMS: Final = {BodyGroup.LEFT_ARM: "l", BodyGroup.RIGHT_ARM: "r"}
+_SHORTEST: Final = 1e-6
+"""A shorter vector has no direction."""
+
+
+class PoseGoals:
+    """The goals of the key poses of one group.
+
+    Attributes:
+        notes: faults of goals that are left out, each name or kind once, with the location of its first one.
+    """
+
+    def __init__(self, group: BodyGroup, context: MakerContext, rest: Body) -> None:
+        self._group = group
+        self._context = context
+        self._rest = rest
+        self._skeleton = context.humanoid.avatar.skeleton
+        self._joints = frozenset(group_joints(group, self._skeleton))
+        self._side = _ARMS.get(group)
+        self._stored: dict[str, Mapping[str, Quat]] = {}
+        self._notes: dict[str, Fault] = {}
+        self._place: Vec3 | None = None
+        self._tip: Vec3 = (0.0, 0.0, 0.0)
+
+    @property
+    def notes(self) -> tuple[Fault, ...]:
+        """The faults of goals that are left out."""
+        return tuple(self._notes.values())
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """The sentences of the notes."""
+        return tuple(fault.sentence for fault in self.notes)
+
+    def solved(self, goals: Iterable[Goal]) -> SolvedPose | None:
+        """Return the pose that meets goals; None if the figure can meet none of them."""
+        met = [goal for goal in goals if self._is_met(goal)]
+        if not met:
+            return None
+        stored = [goal for goal in met if isinstance(goal, PoseGoal)]
+        rotations = self._stored[stored[-1].pose] if stored else {}
+        influence = stored[-1].influence if stored else 1.0
+        others = [goal for goal in met if not isinstance(goal, PoseGoal)]
+        arm = self._arm(others) if self._side and others else None
+        head = self._head(others) if self._group in WEIGHTS and others else None
+        return SolvedPose(rotations, influence, arm, head)
+
+    def _is_met(self, goal: Goal) -> bool:
+        """Return whether the figure can meet a goal; otherwise, note why not."""
+        try:
+            self._check(goal)
+        except RealizerError as refused:
+            place = goal.location
+            self._notes.setdefault(refused.fault.sentence, refused.fault.located(place.line, place.column))
+            return False
+        return True
+
+    def _check(self, goal: Goal) -> None:
+        """Check that the figure can meet a goal.
+
+        Raises:
+            RealizerError: with the reason.
+        """
+        kind = goal.ELEMENT
+        match goal:
+            case PoseGoal():
+                if goal.pose not in self._stored:
+                    self._stored[goal.pose] = self._read(goal.pose)
+            case LookAtGoal():
+                if self._group not in WEIGHTS:
+                    raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(WEIGHTS)))
+            case SwivelGoal():
+                if self._side is None:
+                    raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(_ARMS)))
+            case PositionGoal():
+                if self._side is None:
+                    raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(_ARMS)))
+                self._check_joint(goal.joint)
+            case OrientationGoal():
+                axes = self._axes()
+                if goal.axis not in axes:
+                    known = tuple(axes) or ("the axes of an arm or a head",)
+                    raise RealizerError(NotOfGroup(goal=f"{kind} of {goal.axis}", group=self._group, known=known))
+                if length(goal.direction) < _SHORTEST:
+                    raise RealizerError(NoDirection())
+
+    def _axes(self) -> Mapping[BodyAxis, Vec3]:
+        if self._side is not None:
+            return hand_axes(self._side, self._skeleton)
+        return HEAD_AXES if self._group in WEIGHTS else {}
+
+    def _check_joint(self, joint: str | None) -> None:
+        if joint is not None and (
+            joint not in self._skeleton or f"{self._side}_wrist" not in self._skeleton.chain(joint)
+        ):
+            known = tuple(each for each in self._skeleton.joints if each.startswith(f"{self._side}_"))
+            hand = tuple(each for each in known if f"{self._side}_wrist" in self._skeleton.chain(each))
+            raise RealizerError(NotOfGroup(goal=f"position of {joint}", group=self._group, known=hand))
+
+    def _arm(self, goals: Iterable[Goal]) -> ArmPose:
+        """Return the goals of an arm; without a place, the hand keeps the last one."""
+        side, axes = self._side or "r", self._axes()
+        directions: list[Direction] = []
+        swivel: float | None = None
+        for goal in goals:
+            match goal:
+                case PositionGoal():
+                    self._place, self._tip = goal.target, self._tip_of(goal, side)
+                case OrientationGoal():
+                    directions.append(Direction(axes[goal.axis], unit(goal.direction)))
+                case SwivelGoal():
+                    swivel = math.radians(goal.angle)
+                case LookAtGoal() | PoseGoal():
+                    pass
+        if swivel is not None and self._place is None:
+            self._place = self._rest_place(side)
+        return ArmPose(side, self._place, self._tip, tuple(directions), swivel or 0.0)
+
+    def _rest_place(self, side: str) -> Vec3:
+        """Return where the wrist is at rest, from the pelvis, m."""
+        pelvis, wrist = (self._rest.transform(joint).position for joint in (self._skeleton.joints[0], f"{side}_wrist"))
+        return subtract(wrist, pelvis)
+
+    def _tip_of(self, goal: PositionGoal, side: str) -> Vec3:
+        """Return the point of a hand for which a goal is, in the axes of its wrist, m."""
+        wrist = self._rest.transform(f"{side}_wrist")
+        joint = self._rest.transform(goal.joint or f"{side}_wrist")
+        back = conjugate(wrist.rotation)
+        from_joint = rotate(multiply(back, joint.rotation), goal.offset)
+        return add(rotate(back, subtract(joint.position, wrist.position)), from_joint)
+
+    def _head(self, goals: Iterable[Goal]) -> HeadPose:
+        place: Vec3 | None = None
+        directions: list[Direction] = []
+        for goal in goals:
+            if isinstance(goal, LookAtGoal):
+                place = goal.target
+            elif isinstance(goal, OrientationGoal):
+                directions.append(Direction(HEAD_AXES[goal.axis], unit(goal.direction)))
+        return HeadPose(self._group, place, tuple(directions))
+
+    def _read(self, name: str) -> Mapping[str, Quat]:
+        """Return the rotations of a stored pose for the joints of the group; those of the other side are mirrored.
+
+        Raises:
+            RealizerError: there is no such file, it is invalid, or it has none of the joints.
+        """
+        path = first_asset(self._context.asset, f"**/{name}.xml", f"**/{name}.bvh")
+        pose = _stored(path, path.stat().st_mtime_ns, self._skeleton)
+        own = {joint: turn for joint, turn in pose.items() if joint in self._joints}
+        if not own:
+            mirrored = {other_side(joint): (w, x, -y, -z) for joint, (w, x, y, z) in pose.items()}
+            own = {joint: turn for joint, turn in mirrored.items() if joint in self._joints}
+        if not own:
+            raise RealizerError(NotOfGroup(goal=f"pose {name}", group=self._group, known=tuple(pose)))
+        return own
+
+
+@lru_cache(256)
+def _stored(path: Path, changed: int, skeleton: Skeleton) -> Mapping[str, Quat]:
+    """Return the rotations of a file; of a capture, those of its last frame."""
+    if path.suffix.lower() == ".bvh":
+        clip = load_clip(path, skeleton, 0.0)
+        return clip.rotations_at(clip.times[-1])
+    return read_skeleton_pose(path)

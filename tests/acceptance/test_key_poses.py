@@ -1,0 +1,228 @@
+"""Key poses: what the joints do in the frames, when the points come, and what is said of what cannot be."""
+
+import math
+
+import pytest
+
+from reactive_realizer.bml.names import BML
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import angle, difference, rotate
+from reactive_realizer.embodiment.vector import Vec3, add, distance, dot, subtract, unit
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+FRAMES = 50
+"""Frames per second."""
+
+
+def document(inside: str, id_: str = "b") -> str:
+    spaces = f'xmlns="{BML}" xmlns:rr="urn:reactive-realizer:1" xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
+    return f'<bml {spaces} id="{id_}">{inside}</bml>'
+
+
+def poses(id_: str, group: str, *inside: str, more: str = "") -> str:
+    return f'<rr:keyPoses id="{id_}" group="{group}" {more}>{"".join(inside)}</rr:keyPoses>'
+
+
+def pose(time: float, goals: str, hold: float = 0.0, id_: str = "") -> str:
+    name = f'id="{id_}"' if id_ else ""
+    return f'<rr:keyPose {name} time="{time}" hold="{hold}">{goals}</rr:keyPose>'
+
+
+def from_pelvis(body: Body, joint: str) -> Vec3:
+    return subtract(body.transform(joint).position, body.transform("HumanoidRoot").position)
+
+
+def at(pilot: RealizerPilot, seconds: float) -> Body:
+    return pilot.bodies()[round(seconds * FRAMES)]
+
+
+HERE = (-0.13, 0.13, 0.25)
+THERE = (-0.25, 0.3, 0.25)
+
+
+def place(target: Vec3, more: str = "") -> str:
+    return f'<rr:position target="{target[0]} {target[1]} {target[2]}" {more}/>'
+
+
+async def test_a_hand_is_at_its_places_at_their_times_and_stays_for_their_holds() -> None:
+    arm = poses("k", "RIGHT_ARM", pose(0.6, place(HERE), 0.4, "here"), pose(1.6, place(THERE), 0.3, "there"))
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(arm.replace("group", 'start="0.4" group', 1)))
+        await pilot.advance(4)
+        points = {sync: pilot.feedback.time(f"b:k:{sync}") for sync in ("start", "here", "there", "relax", "end")}
+        assert points == pytest.approx({"start": 0.4, "here": 1.0, "there": 2.0, "relax": 2.3, "end": 2.3})
+        for time in (1.02, 1.2, 1.38):
+            assert distance(from_pelvis(at(pilot, time), "r_wrist"), HERE) < 0.001
+        for time in (2.02, 2.28):
+            assert distance(from_pelvis(at(pilot, time), "r_wrist"), THERE) < 0.001
+        assert distance(from_pelvis(at(pilot, 1.7), "r_wrist"), HERE) > 0.05
+        rest = from_pelvis(at(pilot, 0.0), "r_wrist")
+        assert distance(from_pelvis(at(pilot, 3.9), "r_wrist"), rest) < 0.02
+        assert pilot.feedback.warnings == []
+
+
+async def test_a_pose_that_moves_takes_its_hand_with_it() -> None:
+    arm = poses("k", "RIGHT_ARM", pose(0.6, place(HERE)), pose(1.2, place(THERE), id_="there"), pose(1.8, place(HERE)))
+    tied = arm.replace("group", 'there="anticipators:music:beat" group', 1)
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.predict("music", "beat", 1.5)
+        pilot.perform(document(tied))
+        await pilot.advance(0.8)
+        pilot.predict("music", "beat", 2.2)
+        await pilot.advance(2)
+        assert pilot.feedback.time("b:k:there") == pytest.approx(2.2)
+        assert distance(from_pelvis(at(pilot, 2.2), "r_wrist"), THERE) < 0.01
+
+
+@pytest.mark.parametrize(
+    ("goal", "joint", "offset"),
+    [('joint="r_index3"', "r_index3", (0.0, 0.0, 0.0)), ('offset="0 -0.1 0"', "r_wrist", (0.0, -0.1, 0.0))],
+)
+async def test_any_point_of_a_hand_can_be_brought_to_a_place(goal: str, joint: str, offset: Vec3) -> None:
+    palm = '<rr:orientation axis="PALM" direction="1 0 0"/>'
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "RIGHT_ARM", pose(0.8, place(HERE, goal) + palm, 0.4))))
+        await pilot.advance(1.2)
+        body = at(pilot, 1.0)
+        point = add(from_pelvis(body, joint), rotate(body.transform(joint).rotation, offset))
+        assert distance(point, HERE) < 0.005
+
+
+async def test_palms_and_fingers_point_where_they_should_while_the_hand_stays() -> None:
+    up = '<rr:orientation axis="PALM" direction="0 1 0"/><rr:orientation axis="FINGERS" direction="-1 0 2"/>'
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "RIGHT_ARM", pose(0.8, place(HERE) + up, 0.4))))
+        await pilot.advance(1.2)
+        body = at(pilot, 1.0)
+        hand = body.transform("r_wrist").rotation
+        along = unit(rotate(hand, body.skeleton.offset("r_middle1")))
+        across = rotate(hand, subtract(body.skeleton.offset("r_index1"), body.skeleton.offset("r_pinky1")))
+        assert abs(dot(along, (0.0, 1.0, 0.0))) < 0.1
+        assert abs(dot(unit(across), (0.0, 1.0, 0.0))) < 0.1
+        assert dot(along, unit((-1.0, 0.0, 2.0))) > 0.9
+        assert distance(from_pelvis(body, "r_wrist"), HERE) < 0.001
+
+
+async def test_a_swivel_turns_the_elbow_out_and_leaves_the_hand() -> None:
+    for group, side, outward in (("RIGHT_ARM", "r", -1.0), ("LEFT_ARM", "l", 1.0)):
+        target = (outward * abs(HERE[0]), HERE[1], HERE[2])
+        two = (pose(0.8, place(target), 0.2), pose(1.6, place(target) + '<rr:swivel angle="50"/>', 0.4))
+        async with open_pilot() as pilot:
+            pilot.watch()
+            pilot.perform(document(poses("k", group, *two)))
+            await pilot.advance(2)
+            before, after = at(pilot, 0.9), at(pilot, 1.8)
+            assert distance(from_pelvis(after, f"{side}_wrist"), target) < 0.001
+            elbows = [from_pelvis(each, f"{side}_elbow")[0] for each in (before, after)]
+            assert outward * (elbows[1] - elbows[0]) > 0.05
+
+
+async def test_the_head_looks_at_a_place_and_tilts() -> None:
+    look = poses("k", "HEAD_NECK", pose(0.6, '<rr:lookAt target="-7.5 8 10"/>', 0.4))
+    tilt = poses("t", "HEAD", pose(0.6, '<rr:orientation axis="CROWN" direction="-0.3 1 0"/>', 0.4), more='start="2"')
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(look + tilt))
+        await pilot.advance(3)
+        face = rotate(at(pilot, 0.9).transform("skullbase").rotation, (0.0, 0.0, 1.0))
+        assert dot(face, unit((-7.5, 7.4, 10.0))) > 0.98
+        crown = rotate(at(pilot, 2.9).transform("skullbase").rotation, (0.0, 1.0, 0.0))
+        assert crown == pytest.approx(unit((-0.3, 1.0, 0.0)), abs=0.05)
+
+
+async def test_hands_take_the_shapes_of_stored_poses_by_their_influence() -> None:
+    fist = pose(0.5, '<rr:pose name="hands_fist"/>', 0.4)
+    half = pose(0.5, '<rr:pose name="hands_fist" influence="0.5"/>', 0.4)
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("r", "RIGHT_HAND", fist) + poses("l", "LEFT_HAND", half)))
+        await pilot.advance(1)
+        rest, closed = at(pilot, 0.0), at(pilot, 0.8)
+        whole, part = (angle(difference(rest.rotation(name), closed.rotation(name))) for name in ("r_ring2", "l_ring2"))
+        assert whole > 1.0
+        assert part == pytest.approx(0.5 * whole, rel=0.1)
+
+
+async def test_key_poses_lie_above_what_plays_on_their_limbs_and_leave_the_rest_alone() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.block("g", '<gesture id="both" lexeme="OFFER" mode="BOTH_HANDS" end="5"/>')
+        await pilot.advance(2)
+        pilot.perform(document(poses("k", "RIGHT_ARM", pose(0.5, place(HERE), 1.0)), "now"))
+        await pilot.advance(1)
+        assert pilot.feedback.warnings == []
+        assert distance(from_pelvis(at(pilot, 2.8), "r_wrist"), HERE) < 0.001
+        left = [from_pelvis(at(pilot, time), "l_wrist") for time in (1.9, 2.8)]
+        assert distance(*left) < 0.02
+        await pilot.advance(3)
+        assert pilot.feedback.status("g") == "DONE"
+
+
+async def test_fades_bring_a_motion_in_and_out_by_its_weight() -> None:
+    arm = poses("k", "RIGHT_ARM", pose(0.1, place(HERE), 2.0), more='fadeIn="1" fadeOut="1"')
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(arm))
+        await pilot.advance(4)
+        gaps = [distance(from_pelvis(at(pilot, time), "r_wrist"), HERE) for time in (0.5, 1.1, 2.0, 2.6, 3.4)]
+        assert gaps[0] > 0.05
+        assert max(gaps[1:3]) < 0.005
+        assert gaps[3] > 0.05
+        assert pilot.feedback.time("b:k:relax") == pytest.approx(2.1)
+        assert pilot.feedback.time("b:k:end") == pytest.approx(3.1)
+
+
+async def test_a_time_warp_changes_the_course_of_a_hand_and_not_its_times() -> None:
+    halfway = {}
+    for warp in ("", 'warp="EXP" steepness="3"', 'warp="EXP" steepness="0.4"'):
+        two = (pose(0.6, place(HERE), 0.4), pose(2.0, place(THERE), 0.2, "there"))
+        async with open_pilot() as pilot:
+            pilot.watch()
+            pilot.perform(document(poses("k", "RIGHT_ARM", *two, more=warp)))
+            await pilot.advance(2.3)
+            halfway[warp] = distance(from_pelvis(at(pilot, 1.5), "r_wrist"), HERE) / math.dist(HERE, THERE)
+            assert distance(from_pelvis(at(pilot, 2.1), "r_wrist"), THERE) < 0.002
+            assert pilot.feedback.time("b:k:there") == pytest.approx(2.0)
+    natural, soon, late = halfway.values()
+    assert natural == pytest.approx(0.5, abs=0.1)
+    assert soon > 0.75
+    assert late < 0.35
+
+
+async def test_goals_that_cannot_be_met_are_named_with_their_lines_and_the_others_are_met() -> None:
+    inside = f"""
+        <rr:keyPoses id="k" group="RIGHT_ARM"><rr:keyPose time="0.6" hold="0.4">
+        {place(HERE)}
+        <rr:lookAt target="0 0 1"/>
+        <rr:pose name="hands_hoof"/>
+        <rr:position target="0 0 0" joint="l_wrist"/>
+        <rr:orientation axis="CROWN" direction="0 1 0"/>
+        <rr:orientation axis="PALM" direction="0 0 0"/>
+        </rr:keyPose></rr:keyPoses>
+        <rr:keyPoses id="bad" group="TRUNK"><rr:keyPose time="1"><rr:swivel angle="3"/></rr:keyPose></rr:keyPoses>"""
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(inside))
+        await pilot.advance(2)
+        told = [(message.id, message.text) for message in pilot.feedback.of("warningFeedback")]
+        assert [text.partition(" column")[0] for id_, text in told if id_ == "b:k"] == [
+            f"line {line}," for line in (4, 5, 6, 7, 8)
+        ]
+        assert any(id_ == "b:bad" and "TRUNK have no swivel" in text for id_, text in told)
+        assert distance(from_pelvis(at(pilot, 0.8), "r_wrist"), HERE) < 0.001
+
+
+async def test_a_hand_that_cannot_reach_its_place_goes_as_near_as_it_can_and_says_so() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "RIGHT_ARM", pose(1, place((-0.3, -0.4, 0.9)), 0.4))))
+        await pilot.advance(1.5)
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert warning.id == "b:k"
+        assert "r_wrist cannot reach its goal" in warning.text
+        arm = [at(pilot, 1.2).transform(joint).position for joint in ("r_shoulder", "r_wrist")]
+        assert distance(*arm) > 0.4

@@ -1,0 +1,283 @@
+"""EMBRScript: what its scripts mean in BML, and what is wrong with them."""
+
+import pytest
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.block import CAST, BehaviorBlock, Parsed
+from reactive_realizer.bml.dialects import BML_DIALECT, Dialects
+from reactive_realizer.bml.embr.reader import DIALECT, read
+from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
+from reactive_realizer.bml.key_poses import KeyPoses, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
+from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, Composition, FacePart, WarpKind
+from reactive_realizer.limits import Limits
+
+
+def script(*poses: str, sequence: str = "START:asap") -> str:
+    inside = "\n".join(f"BEGIN K_POSE\n{pose}\nEND" for pose in poses)
+    return f"BEGIN K_POSE_SEQUENCE\n{sequence}\n{inside}\nEND\n"
+
+
+def parsed(text: str) -> Parsed:
+    (found,) = read(text, Limits(), "document1")
+    return found
+
+
+def block(text: str) -> BehaviorBlock:
+    found = parsed(text)
+    assert found.problems == ()
+    assert found.block is not None
+    return found.block
+
+
+def key_poses(text: str) -> KeyPoses:
+    (behavior,) = block(text).behaviors
+    assert isinstance(behavior, KeyPoses)
+    return behavior
+
+
+def problems(text: str) -> list[tuple[int | None, str]]:
+    return [(each.fault.line, each.fault.sentence) for each in parsed(text).problems]
+
+
+def start_of(behavior: Behavior) -> str:
+    return str(behavior.syncs["start"])
+
+
+def position(target: str = "-0.2;-0.3;0.1", group: str = "rarm", more: str = "") -> str:
+    lines = [
+        "BEGIN POSITION_CONSTRAINT",
+        f"BODY_GROUP:{group}",
+        f"TARGET:{target}",
+        "JOINT:rhand",
+        *filter(None, [more]),
+        "END",
+    ]
+    return "\n".join(lines)
+
+
+def looking(target: str = "0;-1;0.6") -> str:
+    return f"BEGIN LOOK_AT_CONSTRAINT\nBODY_GROUP:headNeck\nTARGET:{target}\nEND"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["BEGIN K_POSE_SEQUENCE\nEND", "# a\n\n  TIME_RESET\n", "#\nBEGIN NUCLEUS # b\nEND", "BEGIN\nK_POSE_SEQUENCE"],
+)
+def test_a_script_is_recognized_by_its_first_words(text: str) -> None:
+    assert DIALECT.recognizes(text)
+
+
+@pytest.mark.parametrize("text", ["", "<bml/>", "BEGIN K_POSE", "TIME_RESETS", "# TIME_RESET"])
+def test_nothing_else_is_recognized(text: str) -> None:
+    assert not DIALECT.recognizes(text)
+
+
+def test_times_are_milliseconds_relative_to_the_sequence_or_to_the_script() -> None:
+    relative = key_poses(script(f"TIME_POINT:+200\nHOLD:100\n{position()}", f"TIME_POINT:+800\n{position()}"))
+    assert start_of(relative) == "0"
+    assert [(pose.time, pose.hold) for pose in relative.poses] == [(0.2, 0.1), (0.8, 0.0)]
+    absolute = key_poses(script(f"TIME_POINT:1719\nHOLD:320\n{position()}", sequence="START:1000"))
+    assert start_of(absolute) == "1"
+    assert [(pose.time, pose.hold) for pose in absolute.poses] == [(0.719, 0.32)]
+    assert start_of(key_poses(script(f"TIME_POINT:+500\n{position()}", sequence="START:+300"))) == "0.3"
+
+
+def test_a_target_is_from_the_pelvis_with_y_to_the_back_and_z_up() -> None:
+    (pose,) = key_poses(script(f"TIME_POINT:+200\n{position(more='OFFSET:0.1;0.2;0.3')}")).poses
+    (goal,) = pose.goals
+    assert isinstance(goal, PositionGoal)
+    assert goal.target == (-0.2, 0.1, 0.3)
+    assert goal.offset == (0.1, 0.3, -0.2)
+    assert goal.joint == "r_wrist"
+
+
+@pytest.mark.parametrize(
+    ("written", "axis", "direction"),
+    [
+        ("DIRECTION:0;-1;0", BodyAxis.PALM, (0, 0, 1)),
+        ("NORMAL:Zaxis\nDIRECTION:0;0;-1", BodyAxis.PALM, (0, 1, 0)),
+        ("NORMAL:YAxis\nDIRECTION:0;0;1", BodyAxis.FINGERS, (0, 1, 0)),
+        ("NORMAL:Xaxis\nDIRECTION:1;0;0", BodyAxis.THUMB, (-1, 0, 0)),
+        ("NORMAL:-1;-0.5;0", BodyAxis.PALM, (-1, 0, 0.5)),
+    ],
+)
+def test_an_orientation_directs_an_axis_of_the_hand(
+    written: str, axis: BodyAxis, direction: tuple[float, float, float]
+) -> None:
+    pose = f"TIME_POINT:+200\nBEGIN ORIENTATION_CONSTRAINT\nBODY_GROUP:rarm\nJOINT:rhand\n{written}\nEND"
+    (goal,) = key_poses(script(pose)).poses[0].goals
+    assert isinstance(goal, OrientationGoal)
+    assert (goal.axis, goal.direction) == (axis, direction)
+
+
+def test_all_constraints_of_a_body_group_are_one_behavior() -> None:
+    fist = "BEGIN POSE_TARGET\nBODY_GROUP:rhand\nPOSE_KEY:hands_fist\nINFLUENCE:0.5\nEND"
+    swivel = "BEGIN SWIVEL_CONSTRAINT\nBODY_GROUP:rarm\nSWIVEL_ANGLE:30\nEND"
+    arm, hand, head = block(script(f"TIME_POINT:+200\n{position()}\n{fist}\n{swivel}\n{looking()}")).behaviors
+    assert isinstance(arm, KeyPoses)
+    assert isinstance(hand, KeyPoses)
+    assert isinstance(head, KeyPoses)
+    assert [each.group for each in (arm, hand, head)] == [
+        BodyGroup.RIGHT_ARM,
+        BodyGroup.RIGHT_HAND,
+        BodyGroup.HEAD_NECK,
+    ]
+    assert [type(goal) for goal in arm.poses[0].goals] == [PositionGoal, SwivelGoal]
+    (goal,) = hand.poses[0].goals
+    assert isinstance(goal, PoseGoal)
+    assert (goal.pose, goal.influence) == ("hands_fist", 0.5)
+
+
+def test_a_group_holds_its_pose_until_the_next_pose_of_the_sequence_that_moves_it() -> None:
+    arm = key_poses(script(f"TIME_POINT:+200\nHOLD:100\n{position()}", f"TIME_POINT:+1000\n{position()}"))
+    assert arm.poses[0].hold == pytest.approx(0.1)
+    both = block(
+        script(f"TIME_POINT:+200\n{position()}", f"TIME_POINT:+600\n{looking()}", f"TIME_POINT:+900\n{position()}")
+    )
+    assert isinstance(both.behaviors[0], KeyPoses)
+    assert both.behaviors[0].poses[0].hold == pytest.approx(0.4)
+
+
+def test_time_warps_apply_to_a_sequence_a_pose_or_a_constraint() -> None:
+    warped = "TIME_WARP:EXP;5"
+    arm = key_poses(
+        script(
+            f"TIME_POINT:+200\n{position()}",
+            f"TIME_POINT:+400\n{position(more=warped)}",
+            f"TIME_POINT:+600\nTIME_WARP:TAN;0.5\n{position()}",
+            sequence="TIME_WARP:EXP;3\nFADE_IN:200\nFADE_OUT:300",
+        )
+    )
+    assert (arm.warp, arm.steepness, arm.fade_in, arm.fade_out) == (WarpKind.EXP, 3.0, 0.2, 0.3)
+    assert [(pose.warp, pose.steepness) for pose in arm.poses[1:]] == [(WarpKind.EXP, 5.0), (WarpKind.TAN, 0.5)]
+
+
+def test_a_feedback_id_is_a_sync_point() -> None:
+    arm = key_poses(script(f"TIME_POINT:+200\n{position(more='FEEDBACK_ID:there')}"))
+    assert arm.poses[0].id == "there"
+
+
+def test_weights_of_the_face_are_keyframes() -> None:
+    blink = "BEGIN MORPH_TARGET\nMORPH_KEY:ModBlinkRight\nMORPH_VALUE:{}\nFEEDBACK_ID:{}\nEND"
+    blush = "BEGIN SHADER\nSHADER_KEY:blushing\nSHADER_VALUE:1\nEND"
+    poses = (
+        f"TIME_POINT:+500\nHOLD:100\n{blink.format(1, 'shut')}\n{blush}",
+        f"TIME_POINT:+900\n{blink.format(0, 'open')}",
+    )
+    lid, skin = block(script(*poses)).behaviors
+    assert isinstance(lid, FaceKeyframe)
+    assert lid.type is FacePart.FACS
+    assert lid.interpolator is not None
+    rows = [tuple(map(float, line.split())) for line in lid.interpolator.splitlines()[1:-1]]
+    assert rows == [(0, 0), (0.5, 1), (0.6, 1), (0.9, 0)]
+    assert 'id="shut" time="0.5"' in lid.interpolator
+    assert isinstance(skin, FaceKeyframe)
+    assert "skinBlush" in (skin.interpolator or "")
+
+
+def test_a_clip_is_stretched_to_its_time_point_and_fades() -> None:
+    clip = "BEGIN ANIMATION\nTIME_POINT:10000\nANIMATION_CLIP:idle\nBODY_GROUP:larm\nEND"
+    (found,) = block(f"BEGIN K_POSE_SEQUENCE\nSTART:2000\nFADE_IN:2000\n{clip}\nEND").behaviors
+    assert isinstance(found, Keyframe)
+    assert found.animation == "idle"
+    assert {sync: str(ref) for sync, ref in found.syncs.items()} == {"start": "2", "end": "10"}
+    assert found.parameters == {"fadeIn": "0.25", "group": "LEFT_ARM"}
+
+
+def test_a_time_reset_replaces_everything_and_each_character_has_a_block() -> None:
+    one, two = (script(f"TIME_POINT:+200\n{position()}", sequence=f"CHARACTER:{name}") for name in ("Amber", "Alfonse"))
+    found = read(f"{one}TIME_RESET\n{one}{two}", Limits(), "d")
+    blocks = [each.block for each in found if each.block is not None]
+    assert [each.id for each in blocks] == ["d", "d_2", "d_3"]
+    assert [each.composition for each in blocks] == [Composition.MERGE, Composition.REPLACE, Composition.REPLACE]
+    assert [each.extensions.get(CAST) for each in blocks] == ["Amber", "Amber", None]
+    assert [each.character for each in blocks] == [None, None, "Alfonse"]
+    assert [each.played_by(["alice", "Alfonse"]) for each in blocks] == ["alice", "alice", "Alfonse"]
+    assert blocks[0].played_by(["alice", "Amber"]) == "Amber"
+
+
+GOOD = script(f"TIME_POINT:+200\n{position()}")
+
+BAD = [
+    ("TIME_POINT:+0.2s\n" + position(), 4, "+0.2s: it must be a number"),
+    (position(), 3, "K_POSE needs TIME_POINT"),
+    ("TIME_POINT:+200\n" + position(target="1;2"), 7, "a vector is X;Y;Z"),
+    ("TIME_POINT:+200\n" + position(group="rleg"), 6, "there is no BODY_GROUP rleg"),
+    ("TIME_POINT:+200\n" + position().replace("rhand", "rhamd"), 8, "did you mean 'rhand'?"),
+    ("TIME_POINT:+200\n" + position(more="TARGETS:1"), 9, "POSITION_CONSTRAINT has no TARGETS"),
+    ("TIME_POINT:+200\nBEGIN POSITION\nEND", 5, "K_POSE has no POSITION"),
+    ("TIME_POINT:+200\nBEGIN SHADER\nSHADER_KEY:glow\nSHADER_VALUE:1\nEND", 6, "there is no SHADER_KEY glow"),
+    ("TIME_POINT:+200\nplease\n" + position(), 5, "'please' is not TIME_RESET"),
+]
+
+
+@pytest.mark.parametrize(("pose", "line", "problem"), BAD)
+def test_what_is_wrong_is_named_by_line_and_the_rest_plays(pose: str, line: int, problem: str) -> None:
+    text = script(pose, f"TIME_POINT:+900\n{looking()}")
+    found = parsed(text)
+    assert found.block is not None
+    assert [group for each in found.block.behaviors if isinstance(each, KeyPoses) for group in [each.group]][-1] == (
+        BodyGroup.HEAD_NECK
+    )
+    ((where, sentence),) = problems(text)
+    assert where == line
+    assert problem in sentence
+
+
+def test_a_time_that_goes_back_comes_after_the_pose_before_it() -> None:
+    text = script(f"TIME_POINT:+900\nHOLD:100\n{position()}", f"TIME_POINT:+500\n{position()}")
+    ((line, sentence),) = problems(text)
+    assert (line, "0.50 s, before the end of the pose before it at 1.00 s" in sentence) == (13, True)
+    found = parsed(text).block
+    assert found is not None
+    (arm,) = found.behaviors
+    assert isinstance(arm, KeyPoses)
+    assert [pose.time for pose in arm.poses] == [0.9, 1.04]
+
+
+def test_what_is_complete_of_a_truncated_script_plays() -> None:
+    text = GOOD + script(f"TIME_POINT:+200\n{position()}").rpartition("JOINT")[0]
+    assert len((parsed(text).block or block(GOOD)).behaviors) == 2
+    assert [sentence.partition(";")[0] for _, sentence in problems(text)] == [
+        f"the script ends inside this {name}" for name in ("K_POSE_SEQUENCE", "K_POSE", "POSITION_CONSTRAINT")
+    ]
+
+
+def test_what_is_not_realized_is_named_once() -> None:
+    pose = "TIME_POINT:+{}\nNUCLEUS:1\n" + position()
+    text = "BEGIN NUCLEUS\nNUCLEUS_ID:1\nPOWER:1\nEND\n" + script(pose.format(200), pose.format(900))
+    ((line, sentence),) = problems(text)
+    assert (line, sentence.partition(":")[0]) == (9, "NUCLEUS has no effect")
+
+
+def test_a_stray_end_is_named() -> None:
+    assert problems(GOOD + "END") == [(12, "this END closes nothing")]
+
+
+def test_a_script_of_nothing_is_refused() -> None:
+    assert [sentence for _, sentence in problems("TIME_RESET")] == ["the script has no K_POSE_SEQUENCE"]
+    assert parsed("TIME_RESET").block is None
+
+
+def test_ten_thousand_key_poses_are_one_behavior() -> None:
+    text = script(*(f"TIME_POINT:+{20 * number}\n{looking()}" for number in range(1, 10_001)))
+    (found,) = read(text, Limits(bml_bytes=10_000_000), "d")
+    assert found.block is not None
+    (head,) = found.block.behaviors
+    assert isinstance(head, KeyPoses)
+    assert len(head.poses) == 10_000
+
+
+def test_a_script_over_the_limits_is_refused() -> None:
+    (found,) = read(GOOD, Limits(bml_bytes=10), "d")
+    assert "the limit is 10" in found.problems[0].fault.sentence
+    (found,) = read(GOOD + GOOD, Limits(behaviors_per_block=1), "d")
+    assert "2 behaviors; the limit is 1" in found.problems[0].fault.sentence
+
+
+def test_a_file_is_read_by_its_media_type_or_its_content() -> None:
+    dialects = Dialects({"embrscript": DIALECT, "bml": BML_DIALECT})
+    for media_type in ("application/vnd.embr", ""):
+        (found,) = dialects.read(GOOD.encode(), Limits(), "d", media_type)
+        assert found.block is not None
+        assert len(found.block.behaviors) == 1
