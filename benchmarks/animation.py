@@ -1,7 +1,7 @@
 """Measures the animation of a character: time for each frame, from its engine to rotations ready to be sent."""
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -28,6 +28,7 @@ _INSIDE = (
     )
     + "".join(f'<head id="h{i}" lexeme="NOD" start="{2 * i}" end="{2 * i + 2}"/>' for i in range(3))
 )
+_WALK = '<locomotion id="w" target="0 12" start="0"/>'
 _ALL_MOVE = (0.1, 5.5)
 """Times in the block between which all its behaviors play, s."""
 
@@ -35,19 +36,23 @@ _ALL_MOVE = (0.1, 5.5)
 def measure(most: int = 100) -> dict[str, object]:
     """The median time of a character's frame, us, and the number of characters that take all the time between frames.
 
+    ``walk_us`` is how much longer a tick with a frame takes than one without while one character walks, us. A figure
+    that walks moves with the frames of the realizer, so that its engine cannot be asked for others.
+
     Args:
         most: number of characters; larger crowds have no result.
     """
-    times = {str(size): _microseconds(size) if size <= most else None for size in _CROWDS}
+    times = {str(size): _microseconds(size, _perform) if size <= most else None for size in _CROWDS}
     largest = [time for time in times.values() if time is not None][-1]
-    return {"us_per_character_frame": times, "characters_at_50fps": int(_FRAME_US / largest)}
+    walk = _microseconds(1, _walk)
+    return {"us_per_character_frame": times, "characters_at_50fps": int(_FRAME_US / largest), "walk_us": walk}
 
 
-def _microseconds(size: int) -> float:
+def _microseconds(size: int, perform: Callable[[Path], Coroutine[None, None, float]]) -> float:
     with TemporaryDirectory() as folder:
         human = Path(folder, "crowd.toml")
         human.write_text("".join(map(_CHARACTER.format, range(size))), encoding="utf-8")
-        return round(asyncio.run(_perform(human)), 1)
+        return round(asyncio.run(perform(human)), 1)
 
 
 async def _perform(human: Path) -> float:
@@ -60,6 +65,22 @@ async def _perform(human: Path) -> float:
         await pilot.advance(begin)
         keep_from_ticks()  # as a server does
         return median([await _frame(pilot, crowd) for _ in range(round((end - begin) * RATE / FRAME_EVERY))])
+
+
+async def _walk(human: Path) -> float:
+    async with open_scene(SceneOptions(human, "text")) as scene:
+        pilot = RealizerPilot(scene)
+        pilot.perform(block("b", _WALK))
+        begin, end = _ALL_MOVE
+        await pilot.advance(begin)
+        keep_from_ticks()
+        times: dict[bool, list[float]] = {True: [], False: []}
+        while pilot.now < end:
+            has_frame = round(pilot.now * RATE) % FRAME_EVERY == 0
+            start = perf_counter()
+            await pilot.tick()
+            times[has_frame].append(1e6 * (perf_counter() - start))
+        return median(times[True]) - median(times[False])
 
 
 async def _frame(pilot: RealizerPilot, crowd: Sequence[Character]) -> float:

@@ -27,7 +27,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "speech": {"runs": 1},
 }
 KEYS: dict[str, set[str]] = {
-    "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps"},
+    "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps", "walk_us"},
     "endurance": {"blocks", "objects.1", "drift_s"},
     "generated": {
         *(f"{strategy}.blocks" for strategy in ("convex", "embr", "smartbody")),

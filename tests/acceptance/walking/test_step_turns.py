@@ -146,3 +146,9 @@ def off_line(body: Body, side: str, target: Vec3) -> float:
     """The angle between the line of an index finger and the direction of a target, degrees."""
     base, tip = (body.transform(f"{side}_index{i}").position for i in (1, 3))
     return between(unit(subtract(tip, base)), unit(subtract(target, base)))
+
+
+async def test_a_figure_does_not_turn_to_its_own_hand(pilot: RealizerPilot) -> None:
+    pilot.block("b", look(target="alice:l_wrist"))
+    await pilot.advance(2)
+    assert max(map(abs, headings(pilot))) < 3.0

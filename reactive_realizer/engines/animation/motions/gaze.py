@@ -118,7 +118,8 @@ class GazeMotionUnit(MotionUnit):
         kind: GazeKind = LOOK,
         expected: GazeTarget | None = None,
         *,
-        steps: bool = False,
+        may_step: bool = False,
+        follows: bool = False,
     ) -> None:
         """Plan a gaze.
 
@@ -128,7 +129,8 @@ class GazeMotionUnit(MotionUnit):
             rest: posture of trunk, neck and head without gaze.
             kind: of gaze.
             expected: the target as it is now; without one, the gaze has no shortest durations.
-            steps: whether the feet turn the figure where joints do not reach the target.
+            may_step: whether the feet turn the figure where joints do not reach the target.
+            follows: whether the target may move meanwhile.
         """
         self.parameters = dict(weights)
         self.ranges = {group: GAZE_WEIGHTS[group] for group in weights}
@@ -139,12 +141,14 @@ class GazeMotionUnit(MotionUnit):
         self._rest = rest
         self.key_positions = kind.key_positions
         self.preferred_duration = kind.duration
-        self.steps = steps
+        self._may_step, self._follows = may_step, follows
+        self.steps = may_step and follows
         self.entrance = _TURN
         self._begin = rest.body
         self._seen: tuple[GlobalTime, Mapping[str, Quat]] | None = None
         if expected is not None:
             turn = self._step_turn(expected)
+            self.steps = self.steps or turn != 0.0
             self._take_time(stepping_time(turn).preferred)
             self.shortest = self._shortest(expected, stepping_time(turn).shortest)
 
@@ -175,7 +179,7 @@ class GazeMotionUnit(MotionUnit):
         """Return how far the feet turn the figure to a target, rad to the left."""
         x, _, z = target.point(ZERO)
         bearing = heading_of(x, z)
-        if not self.steps or abs(bearing) < _STEPS_FROM:
+        if not self._may_step or abs(bearing) < _STEPS_FROM:
             return 0.0
         missing = head_turn_toward(self._rest.body, self._rest.pose, target.point, self.parameters).missing
         if missing is None or missing <= _TOLERANCE:
@@ -198,6 +202,7 @@ class GazeMotionUnit(MotionUnit):
     def start(self, body: Body) -> None:
         """Turn the head from its current direction, which may be another gaze."""
         self._begin = body
+        self.steps = self._may_step and (self._follows or self._step_turn(self._target) != 0.0)
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the rotations of trunk, neck and head; they fade to the layers below."""
@@ -294,7 +299,9 @@ class GazeMaker:
             request.parameters, GAZE_WEIGHTS
         )
         kind = GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK
-        return GazeMotionUnit(target, weights, self._context.rest, kind, expected, steps=_steps(self._context, weights))
+        may_step, follows = _may_step(self._context, weights, gaze.target), self._follow or _follows(gaze)
+        rest = self._context.rest
+        return GazeMotionUnit(target, weights, rest, kind, expected, may_step=may_step, follows=follows)
 
 
 class HeadDirectionMaker:
@@ -313,12 +320,14 @@ class HeadDirectionMaker:
         )
         weights = default_weights(Influence.HEAD) | parameter_values(request.parameters, GAZE_WEIGHTS)
         del weights[EYE_WEIGHT]
-        steps = _steps(self._context, weights)
-        return GazeMotionUnit(target, weights, self._context.rest, HEAD_SHIFT, expected, steps=steps)
+        may_step, rest, follows = _may_step(self._context, weights, shift.target), self._context.rest, _follows(shift)
+        return GazeMotionUnit(target, weights, rest, HEAD_SHIFT, expected, may_step=may_step, follows=follows)
 
 
-def _steps(context: MakerContext, weights: Mapping[str, float]) -> bool:
-    """Return whether a figure can turn on its feet for a gaze: not for one of the eyes alone."""
+def _may_step(context: MakerContext, weights: Mapping[str, float], target: str) -> bool:
+    """Return whether a figure can turn on its feet for a gaze: not for one of the eyes alone, or at its own body."""
+    if target.partition(":")[0] == context.character:
+        return False
     stands = context.rest.expected.stance is StanceType.STANDING and walks(context.humanoid.avatar.skeleton)
     return stands and any(weights.get(group, 0.0) > 0.0 for group in JOINT_GROUPS)
 
