@@ -18,6 +18,7 @@ _COMMANDS = MappingProxyType(
         "demo": "serve a scene that performs when the first page opens",
         "realize": "play BML files and write feedback and frames",
         "check": "check BML files for mistakes",
+        "translate": "write a document in any dialect as BML 1.0",
         "lexicon": "list the available lexemes with their sync points and parameters",
         "avatar": "say what an avatar file contains",
         "physics": "write the physical model of a character",

@@ -3,12 +3,10 @@
 import argparse
 import asyncio
 import sys
-from collections.abc import Iterable
 from pathlib import Path
-from typing import TextIO
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
-from reactive_realizer.bml.block import Problem
+from reactive_realizer.cli.output import print_problems
 from reactive_realizer.cli.scene_options import add_file_options
 from reactive_realizer.realizer.document_checker import Findings
 from reactive_realizer.realizer.inputs import BmlText
@@ -43,8 +41,8 @@ async def _check(options: argparse.Namespace) -> bool:
         check = _Check(scene.realizer)
         for path in options.files:
             found = await check.findings(path.read_bytes())
-            _print(path, found.mistakes, sys.stdout)
-            _print(path, found.notes, sys.stderr)
+            print_problems(path, found.mistakes, sys.stdout)
+            print_problems(path, found.notes, sys.stderr)
             wrong = wrong or bool(found.mistakes)
     return wrong
 
@@ -70,13 +68,3 @@ class _Check:
             if parsed.procedure is not None:
                 self._procedures[parsed.procedure.id] = None
         return found
-
-
-def _print(path: Path, problems: Iterable[Problem], stream: TextIO) -> None:
-    """Prints problems in the order of the document."""
-    for line, column, sentence in sorted(map(_placed, problems), key=lambda placed: placed[:2]):
-        print(f"{path}:{line}:{column}: {sentence}", file=stream)
-
-
-def _placed(problem: Problem) -> tuple[int, int, str]:
-    return problem.fault.line or 1, problem.fault.column or 1, problem.fault.sentence

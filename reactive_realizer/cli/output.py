@@ -1,11 +1,13 @@
-"""Writes the output of a session: feedback as JSON lines, warnings, explanations as JSON."""
+"""Writes the output of a session: feedback as JSON lines, warnings, explanations as JSON; problems of documents."""
 
 import json
 import os
 import sys
+from collections.abc import Iterable
 from pathlib import Path
-from typing import IO
+from typing import IO, TextIO
 
+from reactive_realizer.bml.block import Problem
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.realizer.realizer import Realizer
@@ -51,3 +53,13 @@ class Explainer:
 
     def _keep(self, block: BMLBlock) -> None:
         self._blocks.append(self._scheduler.explain(block.key.character, block.key.block))
+
+
+def print_problems(path: Path, problems: Iterable[Problem], stream: TextIO) -> None:
+    """Prints problems in the order of the document."""
+    for line, column, sentence in sorted(map(_placed, problems), key=lambda placed: placed[:2]):
+        print(f"{path}:{line}:{column}: {sentence}", file=stream)
+
+
+def _placed(problem: Problem) -> tuple[int, int, str]:
+    return problem.fault.line or 1, problem.fault.column or 1, problem.fault.sentence

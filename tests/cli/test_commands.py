@@ -11,7 +11,7 @@ from reactive_realizer.testing.pilot import block
 
 
 @pytest.mark.parametrize(
-    "command", ["serve", "demo", "realize", "check", "lexicon", "avatar", "physics", "conformance"]
+    "command", ["serve", "demo", "realize", "check", "translate", "lexicon", "avatar", "physics", "conformance"]
 )
 def test_every_command_has_help_with_an_example(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:

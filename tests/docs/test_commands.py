@@ -13,7 +13,7 @@ from .conftest import EXAMPLES, REPOSITORY, Fence, fences, page
 
 PAGES = ["README.md", *(f"docs/{path.name}" for path in sorted((REPOSITORY / "docs").glob("*.md")))]
 SESSIONS = [fence for name in PAGES for fence in fences(name, "console")]
-RUN = ("realize", "check")
+RUN = ("realize", "check", "translate")
 
 
 def commands(session: Fence) -> Iterator[tuple[list[str], list[str]]]:
@@ -74,7 +74,9 @@ def test_the_lexicon_has_the_lines_on_the_page(capsys: pytest.CaptureFixture[str
     assert [line for line in printed if line.startswith("RAISE_HAND")] == shown
 
 
-@pytest.mark.parametrize("command", ["realize", "check", "lexicon", "physics", "serve", "demo", "conformance"])
+@pytest.mark.parametrize(
+    "command", ["realize", "check", "translate", "lexicon", "physics", "serve", "demo", "conformance"]
+)
 def test_the_page_lists_every_option(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run([command, "--help"]) == 0
     options = set(re.findall(r"--[a-z-]+", capsys.readouterr().out)) - {"--help"}
