@@ -22,6 +22,7 @@ from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.sound_track import SoundTrack
 from reactive_realizer.errors import Fault
 from reactive_realizer.export.bvh import write_bvh
+from reactive_realizer.export.glb import write_glb
 from reactive_realizer.export.npz import write_npz
 from reactive_realizer.export.recorded_motion import MotionRecorder
 from reactive_realizer.export.text_grid import PlayedLog
@@ -64,8 +65,8 @@ def input_file(text: str) -> InputFile:
 
 
 _UNTIL = 600.0
-_OUTPUTS = ("feedback", "frames", "bvh", "audio", "textgrid", "explain")
-_MOTION_WRITERS = {"frames": write_npz, "bvh": write_bvh}
+_OUTPUTS = ("feedback", "frames", "bvh", "glb", "audio", "textgrid", "explain")
+_MOTION_WRITERS = {"frames": write_npz, "bvh": write_bvh, "glb": write_glb}
 _WITH_REPLAY = ("replay", *_OUTPUTS, "verbose", "log_format", "run")
 """The options that ``--replay`` allows; all others are in the recording."""
 
@@ -113,6 +114,9 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--frames", type=Path, metavar="FILE.npz", help="write all poses, a NumPy archive")
     parser.add_argument(
         "--bvh", type=Path, metavar="FILE.bvh", help="write the motion of the bodies, for animation tools"
+    )
+    parser.add_argument(
+        "--glb", type=Path, metavar="FILE.glb", help="write the avatars with their motion, for 3D tools"
     )
     parser.add_argument("--audio", type=Path, metavar="FILE.wav", help="write the sound of all characters, 48 kHz")
     parser.add_argument(

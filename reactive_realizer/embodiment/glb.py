@@ -1,7 +1,8 @@
-"""Reads the container of binary glTF 2.0 files, GLB and VRM (Khronos, chapter "Binary glTF Layout")."""
+"""Reads and writes the container of binary glTF 2.0 files, GLB and VRM (Khronos, chapter "Binary glTF Layout")."""
 
 import json
 import struct
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -9,6 +10,7 @@ from reactive_realizer.errors import Fault, RealizerError
 
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
+_ALIGNED = 4
 _MIB = 1024 * 1024
 _LARGEST_FILE = 256 * _MIB
 """Size limit of a file, bytes. Avatars for browsers have 2 to 30 MiB, the largest of VRM about 100."""
@@ -47,6 +49,18 @@ def read_binary(path: Path) -> tuple[dict[str, Any], bytes]:
             return scene, b""
         length, kind = _CHUNK.unpack(header)
         return scene, file.read(length) if kind == b"BIN\0" else b""
+
+
+def write_binary(path: Path, scene: Mapping[str, Any], data: bytes) -> None:
+    """Write a file with a scene description and the data of its first buffer."""
+    text = json.dumps(scene, ensure_ascii=False, separators=(",", ":")).encode()
+    chunks = _chunk(b"JSON", text, b" ") + (_chunk(b"BIN\0", data, b"\0") if data else b"")
+    path.write_bytes(_HEADER.pack(b"glTF", 2, _HEADER.size + len(chunks)) + chunks)
+
+
+def _chunk(kind: bytes, content: bytes, padding: bytes) -> bytes:
+    content += padding * (-len(content) % _ALIGNED)
+    return _CHUNK.pack(len(content), kind) + content
 
 
 def _scene(path: Path, file: BinaryIO) -> dict[str, Any]:

@@ -31,6 +31,7 @@ class Bone:
         turn: its orientation.
         above: orientation of the node above it; for the topmost bone, in the axes of the file.
         rotation: local to the node above it.
+        node: index in the file, -1 for none.
     """
 
     name: str
@@ -40,6 +41,16 @@ class Bone:
     turn: Quat = IDENTITY
     above: Quat = IDENTITY
     rotation: Quat = IDENTITY
+    node: int = -1
+
+
+def place_above(scene: Mapping[str, Any], node: int) -> NDArray[np.float64]:
+    """Return the transform from the axes of the node above a bone to those of the file, (4, 4).
+
+    Raises:
+        ValueError, LookupError, TypeError, AttributeError: as for `bones_of`.
+    """
+    return _Rig(scene).place_above(node)
 
 
 def bones_of(scene: Mapping[str, Any]) -> list[Bone]:
@@ -92,7 +103,13 @@ class _Rig:
             multiply(facing, self._turn(node)),
             held if parent is None else multiply(facing, held),
             self._rotation(_local(self._nodes[node]), node),
+            node,
         )
+
+    def place_above(self, node: int) -> NDArray[np.float64]:
+        """Return the transform of the node above a bone."""
+        _, *above = self._line(node)
+        return self._places[above[0]] if above else np.eye(4)
 
     def _named(self, nodes: Iterable[int]) -> dict[str, int]:
         found: dict[str, int] = {}

@@ -1,7 +1,5 @@
 """A VRM avatar in the page: the package's female figure, with morph targets that only its expressions explain."""
 
-import json
-import struct
 from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
@@ -10,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.async_api import Page, expect
 
-from reactive_realizer.embodiment.glb import read_binary
+from reactive_realizer.embodiment.glb import read_binary, write_binary
 
 from .conftest import Serve
 
@@ -50,10 +48,7 @@ def write_vrm(path: Path) -> dict[str, str]:
     faces = {"blendShapeGroups": groups}
     vrm = {"humanoid": {"humanBones": []}, "blendShapeMaster": faces, "secondaryAnimation": springs}
     scene["extensionsUsed"], scene["extensions"] = ["KHR_materials_clearcoat", "VRM"], {"VRM": vrm}
-    text = json.dumps(scene).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
-    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+    write_binary(path, scene, data)
     return renamed
 
 

@@ -1,7 +1,5 @@
 """The command `avatar`."""
 
-import json
-import struct
 from importlib.resources import files
 from pathlib import Path
 
@@ -9,7 +7,7 @@ import pytest
 
 from reactive_realizer.__main__ import main
 from reactive_realizer.assembly.human_file import read_human_file
-from reactive_realizer.embodiment.glb import read_binary
+from reactive_realizer.embodiment.glb import read_binary, write_binary
 
 FEMALE = Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "female.glb"
 
@@ -50,9 +48,8 @@ def test_it_says_what_a_face_has_and_what_stands_in_for_the_rest(
     scene["meshes"] = [{"name": "Face", "primitives": [{"targets": [{}]}], "extras": {"targetNames": ["Blink"]}}]
     bind = {"node": 54, "index": 7, "weight": 1.0}
     scene["extensions"]["VRMC_vrm"]["expressions"] = {"preset": {"aa": {"morphTargetBinds": [bind]}}}
-    text = json.dumps(scene).encode()
     file = tmp_path / "anna.vrm"
-    file.write_bytes(struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text), len(text), b"JSON") + text)
+    write_binary(file, scene, b"")
     assert main(["avatar", str(file)]) == 0
     printed = capsys.readouterr().out.splitlines()
     assert "VRM: 1 of 18; missing: happy, angry, sad, relaxed, surprised, neutral, aa, ih" in "\n".join(printed)

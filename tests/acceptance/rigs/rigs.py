@@ -1,8 +1,6 @@
 """Avatar files in the forms of other tools: the bones of the default avatar under other names, axes and sizes."""
 
-import json
 import math
-import struct
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
@@ -13,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.glb import write_binary
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.vector import Vec3, add, scale, subtract, unit
 
@@ -75,9 +74,7 @@ class Rig:
 
 def write(path: Path, scene: Mapping[str, Any]) -> Path:
     """Write a GLB file without meshes."""
-    text = json.dumps(scene).encode()
-    text += b" " * (-len(text) % 4)
-    path.write_bytes(struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text), len(text), b"JSON") + text)
+    write_binary(path, scene, b"")
     return path
 
 
