@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from random import Random
 from typing import Final
 
-from reactive_realizer.liveliness.movement import Anchor, Movement
+from reactive_realizer.liveliness.movement import SOONEST, Anchor, Movement
 from reactive_realizer.liveliness.prosody import Phrase, SpokenWord
 from reactive_realizer.liveliness.word_classes import WordBehavior, WordClasses
 from reactive_realizer.planunit.body_parts import BodyPart
@@ -38,8 +38,12 @@ _ACCENT: Final = 0.7
 _STRONG: Final = 0.85
 """Prominence of a word for which brows rise and hands beat."""
 
-_POSE: Final = {"LEFT": 0.055, "TILT_LEFT": 0.075, "UP": 0.05}
-"""The largest amounts with which the head takes another position for a phrase: by 2.2, 1.9 and 1.4 degrees."""
+_POSE: Final = {"LEFT": 0.058, "TILT_LEFT": 0.15, "UP": 0.05}
+"""The largest amounts with which the head takes another position for a phrase: by 2.3, 3.8 and 1.4 degrees."""
+_SIDE: Final = {"LEFT": 2, "TILT_LEFT": 1, "UP": 1}
+"""After how many phrases the head takes positions on the other side."""
+_TURNING: Final = 0.5
+"""The shortest time in which the head takes such a position in full, s; if a phrase leaves less, it goes less far."""
 _OPPOSITE: Final = {"LEFT": "RIGHT", "TILT_LEFT": "TILT_RIGHT", "UP": "DOWN"}
 
 _NODS: Final = (("NOD", 0.26), ("NOD", 0.22), ("TILT_FORWARD", 0.22), ("TOSS", 0.11))
@@ -138,18 +142,20 @@ class PhrasePlanner:
         """The head takes another position for each phrase, and goes on to that of the next one."""
         phrase = phrases[index]
         first, last = phrase.words[0], phrase.words[-1]
-        until = phrase.end + min(phrase.pause, 0.3) + 0.3
-        for number, lexeme in enumerate(random.sample(sorted(_POSE), 2)):
-            chosen = lexeme if (index + number) % 2 else _OPPOSITE[lexeme]
+        begin, until = max(SOONEST, phrase.start - 0.25), phrase.end + min(phrase.pause, 0.3) + 0.3
+        ready = min(phrase.start + 0.4, (phrase.start + phrase.end) / 2)
+        unhurried = min(1.0, max(0.0, ready - begin) / _TURNING)
+        for lexeme in random.sample(sorted(_POSE), 2):
+            chosen = lexeme if index // _SIDE[lexeme] % 2 else _OPPOSITE[lexeme]
             times = {
-                "start": (first, phrase.start - 0.25),
-                "ready": (first, min(phrase.start + 0.4, (phrase.start + phrase.end) / 2)),
+                "start": (first, begin),
+                "ready": (first, ready),
                 "relax": (last, max(phrase.end - 0.2, (phrase.start + phrase.end) / 2)),
                 "end": (last, until),
             }
             anchors = {sync: Anchor.at(word, time) for sync, (word, time) in times.items()}
-            amount = _POSE[lexeme] * random.uniform(0.5, 1.0)
-            yield Movement("head", {"lexeme": chosen}, amount, anchors, (phrase.start - 0.25, until))
+            amount = _POSE[lexeme] * random.uniform(0.7, 1.0) * unhurried
+            yield Movement("head", {"lexeme": chosen}, amount, anchors, (begin, until))
 
     def _for_word(self, behavior: WordBehavior, word: SpokenWord, phrase: Phrase, index: int) -> Movement | None:
         """The movement for a word of a class; None for a look if it is unknown what is looked away from."""

@@ -18,6 +18,11 @@ PLAIN = (
     "Hello, I am very glad that you came. It is not the red one, but the blue box over there that I really wanted. "
     "Perhaps we can go there tomorrow, because the weather is going to be wonderful."
 )
+WITHOUT_SUCH_WORDS = (
+    "The train to the coast leaves from platform four at ten past nine. Change in the second town, where it waits for "
+    "eight minutes, and the slow train takes people along the river to the harbor in less than an hour."
+)
+"""A text without words that ask for movements of their own."""
 Options = Callable[[float | None], SceneOptions]
 
 
@@ -51,10 +56,18 @@ def movements(pilot: RealizerPilot) -> set[tuple[str, str]]:
     return {(id_, lexeme) for id_, lexeme in found if ".lively" in id_ and ":" in id_}
 
 
-async def test_in_ten_seconds_of_plain_speech_the_head_moves_as_peoples_does(options: Options) -> None:
-    async with open_pilot(options(0.5)) as pilot:
+@pytest.mark.parametrize(
+    ("voice", "text"),
+    [
+        ("espeak", PLAIN),
+        ("espeak", WITHOUT_SUCH_WORDS),
+        pytest.param("kokoro", WITHOUT_SUCH_WORDS, marks=pytest.mark.kokoro),
+    ],
+)
+async def test_in_ten_seconds_of_plain_speech_the_head_moves_as_peoples_does(voice: str, text: str) -> None:
+    async with open_pilot(SceneOptions(voice=voice, liveliness=0.5)) as pilot:
         pilot.watch()
-        pilot.block("talk", say())
+        pilot.block("talk", say(text))
         await pilot.advance(10)
         extent = np.ptp(head_angles(pilot), axis=0)
         assert all(4.0 <= angle <= 12.0 for angle in extent), extent

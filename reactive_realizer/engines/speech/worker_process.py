@@ -11,8 +11,8 @@ from typing import Any, Final, Self, cast
 
 from reactive_realizer.engines.speech.worker_messages import MessageDecoder, WorkerMessage, failure
 
-_START_PATIENCE = 30.0
-"""Time limit for the first message of a worker, which has to load a library or a model, s."""
+_START_PATIENCE = 60.0
+"""Time limit for the first message of a worker, which has to load a library or a model, s: 3 s on a quiet machine."""
 UNSENT: Final = WorkerMessage({"failed": "it was not sent"})
 """The reply to a request that waited when the worker ended: another worker can answer it."""
 
