@@ -95,9 +95,9 @@ def _pegs_ahead(block: BMLBlock) -> dict[Point, TimePeg]:
 def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> dict[Point, float]:
     """The shifts (s) of the points of a behavior, of those that are tied to them, of behaviors there, and so on.
 
-    A rigid behavior moves as a whole, and so does one that has not begun and is tied by a single point, so that it
-    keeps its preferred durations. Of others, only the tied points move. Points that have fired stay, and what is tied
-    to them.
+    A rigid behavior moves as a whole, and so does one that has not begun and is held at a single point, so that it
+    keeps its preferred durations. Of others, that point moves, and later ones that are tied only to what follows them.
+    Points that have fired stay, and what is tied to them.
 
     Args:
         block: of the behavior.
@@ -105,7 +105,7 @@ def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> di
         seconds: the shift of each of its points.
     """
     tied, ahead = _tied_nodes(block), _pegs_ahead(block)
-    whole = {each.behavior.id: each for each in block.units if each.timing.rigid or _tied_by_one_point(each, tied)}
+    units = {each.behavior.id: each for each in block.units}
     shifts = {Point(unit.behavior.id, sync): shift for sync, shift in seconds.items()}
     waiting = list(shifts)
     while waiting:
@@ -113,16 +113,49 @@ def _shifts(block: BMLBlock, unit: PlanUnit, seconds: Mapping[str, float]) -> di
         for each in tied.get(point, ()):
             if not isinstance(each, Point):
                 continue
-            own = _points_of(whole[each.behavior]) if each.behavior in whole else [each]
+            own = _moving_with(each, units, tied) if each.behavior in units else [each]
             new = [other for other in own if other in ahead and other not in shifts]
             shifts.update(dict.fromkeys(new, shifts[point]))
             waiting += new
     return shifts
 
 
-def _tied_by_one_point(unit: PlanUnit, tied: Mapping[Point, Sequence[Node]]) -> bool:
-    """Whether a behavior has not begun and only one of its points is tied."""
-    return not unit.begun and sum(point in tied for point in _points_of(unit)) == 1
+def _moving_with(point: Point, units: Mapping[str, PlanUnit], tied: Mapping[Point, Sequence[Node]]) -> list[Point]:
+    """The points of a behavior that move with one of them: see `_shifts`."""
+    unit = units[point.behavior]
+    points = _points_of(unit)
+    if unit.timing.rigid:
+        return points
+    later = points[points.index(point) + 1 :]
+    following = [each for each in later if each in tied and _is_followed(each, points, units, tied)]
+    held = [each for each in points if each in tied and each not in following]
+    return points if held == [point] and not unit.begun else [point, *following]
+
+
+def _is_followed(
+    point: Point, own: Sequence[Point], units: Mapping[str, PlanUnit], tied: Mapping[Point, Sequence[Node]]
+) -> bool:
+    """Whether a point is tied only to behaviors that have not begun and that nothing else holds.
+
+    Args:
+        point: of a behavior.
+        own: the points of that behavior.
+        units: of the block.
+        tied: the nodes to which each point is tied.
+    """
+    seen, waiting = {point}, [point]
+    while waiting:
+        for node in tied.get(waiting.pop(), ()):
+            if not isinstance(node, Point) or node.behavior not in units:
+                return False
+            if node in seen:
+                continue
+            if node in own or units[node.behavior].begun:
+                return False
+            new = {*_points_of(units[node.behavior])} - seen
+            seen |= new
+            waiting += new
+    return True
 
 
 def _tied_nodes(block: BMLBlock) -> Mapping[Point, Sequence[Node]]:

@@ -147,6 +147,28 @@ async def test_what_is_tied_to_words_before_a_pause_keeps_its_time_and_what_is_t
     assert told.warnings == []
 
 
+async def test_what_follows_a_gesture_waits_with_it_for_the_word_of_its_stroke(
+    pilot: RealizerPilot, voice: FakeStreamingVoice
+) -> None:
+    voice.hold(1)
+    start = await begin(
+        pilot,
+        '<gesture id="beat" lexeme="BEAT" stroke="s:m"/><wait id="soon" start="beat:relax+0.1" duration="0.2"/>'
+        '<wait id="after" start="beat:end" duration="0.5"/>',
+    )
+    before = planned(pilot, start)
+    while pilot.now < start + 1.2:
+        await pilot.tick()
+    voice.let()
+    await pilot.advance(6)
+    told = pilot.feedback
+    later = told.time("b:s:m") - start - before["b:s:m"]
+    assert later > 0.7
+    assert told.time("b:beat:start") - start == pytest.approx(before["b:beat:start"]), "the gesture had begun"
+    for key in ("b:beat:stroke", "b:beat:relax", "b:beat:end", "b:soon:start", "b:after:start", "b:after:end"):
+        assert told.time(key) - start == pytest.approx(before[key] + later), key
+
+
 @settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.integers(0, 150), min_size=2, max_size=2), st.integers(0, 20))
 async def test_every_clause_sounds_when_its_words_are_told_whenever_it_is_made(
