@@ -1,5 +1,7 @@
 """Measures speech: the time from a text until its block is planned and its first sound is sent, live, for each voice.
 
+Of a prepared speech, the time from its activation until its first sound is sent is measured.
+
 The event loop is watched while speech is synthesized: what holds it up delays frames. Voices of Piper are measured if
 the environment names one.
 """
@@ -13,7 +15,7 @@ from time import perf_counter
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
 from reactive_realizer.clock.ticker import Ticker
-from reactive_realizer.embodiment.audio import AudioChange, AudioStart
+from reactive_realizer.embodiment.audio import AudioChange, AudioMove, AudioStart
 from reactive_realizer.engines.speech.piper.voice import PLACE
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
@@ -25,6 +27,7 @@ AIMS = {
     "kokoro.cold.11.first_audio_ms": 600.0,
     "kokoro.cold.60.first_audio_ms": 600.0,
     "kokoro.cached.60.first_audio_ms": 50.0,
+    "kokoro.prepared.60.first_audio_ms": 50.0,
     "loop_lag_p99_ms": 5.0,
 }
 
@@ -60,13 +63,14 @@ def measure(runs: int = 3) -> dict[str, object]:
 async def _measure(voice: str, hours: tuple[str, ...], lags: list[float]) -> Mapping[str, object]:
     async with open_scene(SceneOptions(voice=voice)) as scene, asyncio.TaskGroup() as group:
         playing = group.create_task(_play(scene.realizer))
-        cold, cached = {}, {}
+        cold, cached, prepared = {}, {}, {}
         for words, text in _TEXTS.items():
             times = [await _speak(scene.realizer, text.format(hour), lags) for hour in hours]
             again = [await _speak(scene.realizer, text.format(hours[-1]), lags) for _ in hours]
-            cold[words], cached[words] = _medians(times), _medians(again)
+            activated = [await _activate(scene.realizer, text.format(hours[-1]), lags) for _ in hours]
+            cold[words], cached[words], prepared[words] = _medians(times), _medians(again), _medians(activated)
         playing.cancel()
-    return {"cold": cold, "cached": cached}
+    return {"cold": cold, "cached": cached, "prepared": prepared}
 
 
 async def _play(realizer: Realizer) -> None:
@@ -76,10 +80,36 @@ async def _play(realizer: Realizer) -> None:
 
 async def _speak(realizer: Realizer, text: str, lags: list[float]) -> dict[str, float]:
     """Speaks a text in place of what is spoken, until all of it is made; the times of its plan and of its sound, s."""
+    return await _timed(realizer, f"b{len(lags)}", _speech(text), lags, composition="REPLACE")
+
+
+async def _activate(realizer: Realizer, text: str, lags: list[float]) -> dict[str, float]:
+    """Prepares a text until all of it is made, and has it spoken; the times since its activation, s."""
+    name = f"b{len(lags)}"
+    realizer.put(BmlText(block("silence", composition="REPLACE")))
+    await _timed(realizer, name, _speech(text), lags, "plan_ms", **{"bmla:preplan": "true"})
+    return await _timed(realizer, f"b{len(lags)}", f'<bmla:activate id="a" target="{name}"/>', lags)
+
+
+async def _timed(
+    realizer: Realizer, name: str, behavior: str, lags: list[float], last: str = "first_audio_ms", **attributes: str
+) -> dict[str, float]:
+    """Has a behavior played until all of it is made; the times since it was sent, s.
+
+    Args:
+        realizer: of the scene.
+        name: of its block: a new one.
+        behavior: BML.
+        lags: takes those of the event loop.
+        last: the name of the last time that is waited for.
+        attributes: of the block.
+    """
     seen: dict[str, float] = {}
 
     def hear(change: AudioChange) -> None:
-        if isinstance(change, AudioStart) and "plan_ms" in seen:  # not the end of the speech before
+        # Clients have the sound of a prepared speech already, and are told when it starts.
+        starts = isinstance(change, AudioMove) or (isinstance(change, AudioStart) and change.start is not None)
+        if starts and "plan_ms" in seen:  # not the end of the speech before
             seen.setdefault("first_audio_ms", perf_counter())
 
     def note(*_: object) -> None:
@@ -88,13 +118,16 @@ async def _speak(realizer: Realizer, text: str, lags: list[float]) -> dict[str, 
     realizer.hear(hear)
     realizer.scheduler.listen_to_plans(note)
     begin = perf_counter()
-    name = f"b{len(lags)}"  # a new name: every run has watched the event loop since
-    realizer.put(BmlText(block(name, f'<speech id="s"><text>{text}</text></speech>', composition="REPLACE")))
-    while len(seen) < 2 or realizer.busy:
+    realizer.put(BmlText(block(name, behavior, **attributes)))
+    while last not in seen or realizer.busy:
         looked = perf_counter()
         await asyncio.sleep(_WATCH)
         lags.append(perf_counter() - looked - _WATCH)
     return {name: time - begin for name, time in seen.items()}
+
+
+def _speech(text: str) -> str:
+    return f'<speech id="s"><text>{text}</text></speech>'
 
 
 def _medians(runs: list[dict[str, float]]) -> dict[str, float]:

@@ -37,6 +37,13 @@ def voice(seconds: float, level: float = 0.3) -> bytes:
     return bytes(samples.tobytes())
 
 
+def hiss(seconds: float, level: float = 0.3) -> bytes:
+    """The burst of a t, whose energy is at 4 to 6 kHz."""
+    times = np.arange(round(seconds * RATE)) / RATE
+    tones = np.sum([np.cos(2 * np.pi * 150 * k * times + k * k) for k in range(27, 41)], axis=0)
+    return bytes((tones / 14 * level * 32767).astype("<i2").tobytes())
+
+
 def silence(seconds: float) -> bytes:
     return bytes(2 * round(seconds * RATE))
 
@@ -175,6 +182,25 @@ async def test_without_a_text_the_mouth_opens_as_the_sound_is_loud_and_is_closed
     assert max(before, pause, after) < 0.02
     assert loud > soft > 0.08
     assert end_of(pilot)["heard"] == "0"
+
+
+async def test_without_a_text_the_lips_close_in_a_short_silence_before_a_burst_without_high_frequencies(
+    pilot: RealizerPilot,
+) -> None:
+    ba, ta = silence(0.08) + voice(0.42, 0.5), silence(0.08) + hiss(0.06) + voice(0.36, 0.5)
+    pilot.block("b", speech(""))
+    await send(pilot, voice(0.5, 0.5) + ba + ta)
+    await pilot.advance(2)
+    start = pilot.feedback.time("b:s:start")
+    morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
+    jaw, lips = (
+        {frame.time - start: float(frame.weights[morphs.index(name)]) for frame in pilot.frames["alice"]}
+        for name in ("jawOpen", "mouthPressLeft")
+    )
+    closed, open_ = ([time for time in jaw if begin <= time < begin + 0.08] for begin in (0.5, 1.0))
+    assert min(jaw[time] for time in closed) < 0.01
+    assert max(lips[time] for time in closed) > 0.4
+    assert max(lips[time] for time in open_) < 0.05
 
 
 @pytest.mark.speech

@@ -93,7 +93,7 @@ KEYS: dict[str, set[str]] = {
         *(
             f"{voice}.{when}.{words}.{what}_ms"
             for voice in ("espeak", "kokoro")
-            for when in ("cold", "cached")
+            for when in ("cold", "cached", "prepared")
             for words in ("5", "11", "60")
             for what in ("first_audio", "plan")
         ),
