@@ -65,9 +65,10 @@ class SpeechWorker:
         return _succeeded(reply)
 
     async def close(self) -> None:
-        """Ends the process."""
-        if self._process is not None:
-            await self._process.close()
+        """Ends the process, also one that is being started."""
+        async with self._starting:
+            if self._process is not None:
+                await self._process.close()
 
     async def _running(self) -> WorkerProcess:
         async with self._starting:
