@@ -9,14 +9,15 @@ from typing import Final, Protocol, runtime_checkable
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.clock.units import RESOLUTION
+from reactive_realizer.engine.punctuation import DASHES, STOPS
 from reactive_realizer.planunit.parameter import Range
 
-_BETWEEN_SPACES: Final = re.compile(r"[^\s\u2013\u2014]+")
-"""The text between white space, en dashes and em dashes."""
+_BETWEEN_SPACES: Final = re.compile(rf"[^\s{DASHES}]+")
+"""The text between white space and dashes."""
 _PUNCTUATION: Final = ".,;:!?\u2026\"'()[]{}\u00ab\u00bb\u201c\u201d\u201e\u2018\u2019\u00a1\u00bf"
 """Characters around a word that are not part of it: stops, quotation marks, brackets."""
-_CLAUSE_ENDS: Final = frozenset(".,;:!?\u2026\u2013\u2014\n")
-"""Characters between two words that end a clause: stops, dashes and line breaks."""
+_BORDERS: Final = frozenset(STOPS + "\n")
+"""Characters between two words that end a clause."""
 STRETCH: Final = (0.8, 1.3)
 """How much shorter and longer speech may become and still sound natural, as factors."""
 RATE_RANGE: Final = Range(0.5, 2.0)
@@ -107,7 +108,7 @@ class Utterance:
         """The start of the first word at or after a time that follows punctuation, s; the duration if there is none."""
         for before, word in pairwise(self.words):
             between = self.text[before.last : word.first]
-            if word.start >= time - RESOLUTION and not _CLAUSE_ENDS.isdisjoint(between):
+            if word.start >= time - RESOLUTION and not _BORDERS.isdisjoint(between):
                 return word.start
         return self.duration
 

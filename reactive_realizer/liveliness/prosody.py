@@ -8,6 +8,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from reactive_realizer.engine.phonetics import PRIMARY_STRESS, SECONDARY_STRESS
+from reactive_realizer.engine.punctuation import CLAUSE_ENDS, SENTENCE_ENDS
 from reactive_realizer.engine.sound_unit import SoundPart
 from reactive_realizer.engine.tts import Phoneme, Utterance
 from reactive_realizer.liveliness.pitch import STEP, pitches
@@ -15,10 +17,8 @@ from reactive_realizer.liveliness.pitch import STEP, pitches
 MOST_WORDS: Final = 9
 """Words of a phrase; a longer one between two punctuation marks is divided."""
 
-_STOPS: Final = ".!?\u2026"
-_COMMAS: Final = ",;:\u2013\u2014"
-_STRESSES: Final = (("\u02c8", 1.0), ("\u02cc", 0.5))
-"""The marks of primary and of secondary stress in IPA, and how much they count."""
+_STRESSES: Final = ((PRIMARY_STRESS, 1.0), (SECONDARY_STRESS, 0.5))
+"""The marks of stress in IPA, and how much they count."""
 
 _STRIKING: Final = 4.0
 """Semitones above the middle of the phrase that stand out fully.
@@ -99,7 +99,7 @@ def phrases_of(utterance: Utterance, function_words: Container[str]) -> list[Phr
     first = 0
     for last, mark in enumerate(marks):
         if mark or last == len(words) - 1:
-            sentence = next((each for each in marks[last:] if each in _STOPS and each), "")
+            sentence = next((each for each in marks[last:] if each in SENTENCE_ENDS and each), "")
             parts = _divided(words[first : last + 1])
             for part in parts:
                 follower = words[part[-1].index + 1] if part[-1].index + 1 < len(words) else None
@@ -163,7 +163,7 @@ def _mark_after(utterance: Utterance, index: int) -> str:
     words, text = utterance.words, utterance.text
     until = words[index + 1].first if index + 1 < len(words) else len(text)
     between = text[words[index].last : until]
-    return next((mark for marks in (_STOPS, _COMMAS) for mark in between if mark in marks), "")
+    return next((mark for marks in (SENTENCE_ENDS, CLAUSE_ENDS) for mark in between if mark in marks), "")
 
 
 def _divided(words: Sequence[SpokenWord]) -> list[Sequence[SpokenWord]]:

@@ -19,7 +19,7 @@ from reactive_realizer.embodiment.audio import AudioStart, AudioStop
 from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
 from reactive_realizer.engines.speech.recorded import aligner, recordings
-from reactive_realizer.engines.speech.recorded.spread import spread
+from reactive_realizer.engines.speech.recorded.recordings import spread
 from reactive_realizer.testing.assertions import assert_time
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 

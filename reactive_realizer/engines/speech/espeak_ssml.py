@@ -8,12 +8,12 @@ from typing import Final
 from xml.sax.saxutils import escape, quoteattr
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
+from reactive_realizer.engine.punctuation import STOPS
 
 FOLLOWED: Final = frozenset(MarkupKind) - {MarkupKind.PHONEME, MarkupKind.OTHER}
 """The kinds of markup that espeak-ng follows; for voices and languages, only those that it has."""
 
 _NO_VOICES: Final[Mapping[str, str]] = MappingProxyType({})
-_STOPS: Final = ".,;:!?\u2026"
 _STRONG: Final = '<break strength="strong"/>'
 _SPELLED: Final = {"characters": "characters", "digits": "tts:digits"}
 
@@ -117,7 +117,7 @@ class _Writer:
             self._resume = markup.last
         elif markup.kind is MarkupKind.SENTENCE:
             # Not as <s>, which espeak-ng begins with half a second of silence.
-            ends = self._text[markup.first : markup.last].rstrip()[-1:] in _STOPS or markup.last == len(self._text)
+            ends = self._text[markup.first : markup.last].rstrip()[-1:] in STOPS or markup.last == len(self._text)
             self._open.append((markup.last, "" if ends else _STRONG))
         elif (tag := _tag(markup, self._voices)) is not None:
             self.write(f"<{tag}>", markup.first)

@@ -27,7 +27,6 @@ from reactive_realizer.engines.speech.elastic_speech import ElasticSpeech
 from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.engines.speech.recorded.recordings import Recording, Recordings
-from reactive_realizer.engines.speech.speech_notes import MarkupLeftOut, SpeechNotes
 from reactive_realizer.engines.speech.speech_unit import (
     LIVELINESS_RANGE,
     SpeechUnit,
@@ -38,8 +37,25 @@ from reactive_realizer.engines.speech.speech_unit import (
 )
 from reactive_realizer.engines.speech.streamed.streamed_speech import spoken_stream
 from reactive_realizer.engines.speech.synthesis import Synthesis, check_words
+from reactive_realizer.errors import CreationFault, Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+
+
+class MarkupLeftOut(CreationFault):
+    """Markup of a speech that its voice cannot follow."""
+
+    code = "markup-left-out"
+    template = "the voice cannot do {markup}; the rest of the SSML is followed"
+    markup: tuple[str, ...]
+
+
+class OtherScript(CreationFault):
+    """Letters that the voice does not read."""
+
+    code = "other-script"
+    template = "the voice does not read {scripts} letters: it spells or skips them"
+    scripts: tuple[str, ...]
 
 
 class SpeechEngine(SoundEngine):
@@ -58,7 +74,7 @@ class SpeechEngine(SoundEngine):
         self._graph = context.graph
         self._recordings = Recordings(context.asset, context.limits.sound_seconds)
         self._streams = context.speech_streams
-        self._notes = SpeechNotes()
+        self._notes = _SpeechNotes()
         avatar = context.humanoid.avatar
         files = context.bindings.get("visemes", ())
         face = context.humanoid.face
@@ -176,6 +192,30 @@ class SpeechEngine(SoundEngine):
         if self._track is None or self._track.utterance is not utterance:
             self._track = LipSyncTrack(utterance, self._visemes)
         return self._track
+
+
+class _SpeechNotes:
+    """Collects the warnings about the speeches of a character: each once, but one about markup for each speech."""
+
+    def __init__(self) -> None:
+        self._notes: list[Warn] = []
+        self._told: set[Fault] = set()
+
+    def add(self, unit: SpeechUnit) -> None:
+        """Note the warnings about a speech that is planned."""
+        self.tell(unit, unit.note)
+        self.tell(unit, OtherScript(scripts=unit.utterance.unread) if unit.utterance.unread else None)
+
+    def tell(self, unit: SpeechUnit, fault: Fault | None) -> None:
+        """Note a fault, if there is one."""
+        if fault is not None and (fault not in self._told or isinstance(fault, MarkupLeftOut)):
+            self._told.add(fault)
+            self._notes.append(Warn(unit, fault))
+
+    def take(self) -> tuple[Warn, ...]:
+        """What was noted since the last call."""
+        notes, self._notes = tuple(self._notes), []
+        return notes
 
 
 def _speech(behavior: Behavior) -> Speech:

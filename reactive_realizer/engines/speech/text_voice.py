@@ -4,6 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
+from reactive_realizer.engine.punctuation import CLAUSE_ENDS, SENTENCE_ENDS
 from reactive_realizer.engine.tts import Utterance, VoiceCapabilities, Word, word_spans
 
 _CHARACTER = 0.06
@@ -61,6 +62,6 @@ def _timed(text: str) -> tuple[Word, ...]:
 
 def _pause(between: str) -> float:
     """Silence for the text between two words, s."""
-    if any(mark in between for mark in ".!?…"):
+    if any(mark in between for mark in SENTENCE_ENDS):
         return _SENTENCE
-    return _CLAUSE if any(mark in between for mark in ",;:\u2013\u2014") else 0.0
+    return _CLAUSE if any(mark in between for mark in CLAUSE_ENDS) else 0.0

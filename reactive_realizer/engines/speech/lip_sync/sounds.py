@@ -4,19 +4,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 
+from reactive_realizer.engine.phonetics import CLOSURE, STRESS, is_plosive
 from reactive_realizer.engine.tts import Phoneme, Utterance
 from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE
-
-CLOSURE = 0.04
-"""Silence before the release of a plosive, s; the release is its onset in an utterance (espeak-ng: 0.030-0.045 s)."""
 
 _PAUSE = 0.08
 """Duration below which a pause does not close the mouth, s: espeak-ng has such within words."""
 
 _LIP_PLOSIVES = frozenset("pb")
-_PLOSIVES = _LIP_PLOSIVES | frozenset("tdkgcɟqɢʈɖ\u0261")
-_STRESS = "ˈˌ"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +48,6 @@ def _onsets(utterance: Utterance, binding: VisemeBinding) -> Iterator[tuple[str,
 
 def _start(before: Phoneme, phoneme: Phoneme) -> float:
     """The start of the viseme of a phoneme, s: that of a plosive is its closure, and the lips open at its release."""
-    if phoneme.symbol.strip(_STRESS) in _PLOSIVES:
+    if is_plosive(phoneme.symbol):
         return max((before.start + phoneme.start) / 2, phoneme.start - CLOSURE)
-    return before.start if before.symbol.strip(_STRESS) in _LIP_PLOSIVES else phoneme.start
+    return before.start if before.symbol.strip(STRESS) in _LIP_PLOSIVES else phoneme.start

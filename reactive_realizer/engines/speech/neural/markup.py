@@ -7,6 +7,8 @@ from math import prod
 from typing import Final
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
+from reactive_realizer.engine.phonetics import STRESS
+from reactive_realizer.engine.punctuation import STOPS
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 from reactive_realizer.engines.speech.neural.pronunciation import Alphabet
 
@@ -17,8 +19,6 @@ FOLLOWED: Final = DICTIONARY | {MarkupKind.PHONEME, MarkupKind.SENTENCE, MarkupK
 _SLOWEST, _FASTEST = 0.5, 2.0
 """How much slower and faster than usual the network speaks well."""
 
-_STOPS: Final = ".,;:!?\u2026"
-_STRESS: Final = "\u02c8\u02cc"
 _LONGER: Final = "[\u02d0\u02d1\u0300-\u036f\u02b0\u02b2\u02b7]*"
 """Signs that belong to the sound before them: length, diacritics."""
 
@@ -46,7 +46,7 @@ def with_stops(text: str, markup: Sequence[Markup]) -> str:
     for each in markup:
         sentence = text[each.first : each.last].rstrip()
         end = each.first + len(sentence)
-        if each.kind is MarkupKind.SENTENCE and sentence[-1:] not in _STOPS and text[end : end + 1] == " ":
+        if each.kind is MarkupKind.SENTENCE and sentence[-1:] not in STOPS and text[end : end + 1] == " ":
             characters[end] = "."
     return "".join(characters)
 
@@ -56,8 +56,8 @@ def with_phonemes(
 ) -> tuple[PronouncedWord, ...]:
     """Words with the sounds that markup gives; those of several words belong to the first of them."""
     known = sorted(alphabet.sounds, key=len, reverse=True)
-    any_of_these = "|".join([*map(re.escape, known), rf"[^\s.{_STRESS}]"])
-    sound = re.compile(rf"[{_STRESS}]*(?:{any_of_these}){_LONGER}")
+    any_of_these = "|".join([*map(re.escape, known), rf"[^\s.{STRESS}]"])
+    sound = re.compile(rf"[{STRESS}]*(?:{any_of_these}){_LONGER}")
     pronounced = list(words)
     for each in markup:
         if each.kind is MarkupKind.PHONEME:

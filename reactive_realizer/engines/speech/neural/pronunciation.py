@@ -5,14 +5,14 @@ from dataclasses import dataclass, field
 from typing import Protocol
 from unicodedata import normalize
 
+from reactive_realizer.engine.phonetics import STRESS
+from reactive_realizer.engine.punctuation import CLAUSE_ENDS, SENTENCE_ENDS
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 
 _MOST_TOKENS = 510
 _LONG = 300
 """Tokens after which a sentence is cut at the next comma: the sooner it is spoken, and it has to fit."""
-_STRESS = "\u02c8\u02cc"
-_SENTENCE_ENDS = frozenset(".!?\u2026\n")
-_CLAUSE_ENDS = frozenset(",;:\u2014")
+_SENTENCE_ENDS = frozenset(SENTENCE_ENDS + "\n")
 _SPACE = " "
 
 
@@ -34,7 +34,7 @@ class Alphabet:
 
     def write(self, sound: str) -> list[int]:
         """The tokens of a sound in IPA, with stress marks in front; none for one that it cannot write."""
-        bare = sound.lstrip(_STRESS)
+        bare = sound.lstrip(STRESS)
         written = self.sounds.get(bare)
         if written is None:
             written = "".join(each for each in bare if each not in self.omitted)
@@ -145,4 +145,4 @@ def _ends(between: str, length: int) -> bool:
     """Whether a sentence of a number of tokens ends at the text between two words."""
     if _SENTENCE_ENDS & set(between):
         return True
-    return length > _LONG and bool(_CLAUSE_ENDS & set(between))
+    return length > _LONG and not set(CLAUSE_ENDS).isdisjoint(between)

@@ -7,6 +7,7 @@ from itertools import accumulate, pairwise
 from math import ceil, floor
 from typing import NamedTuple
 
+from reactive_realizer.engine.phonetics import STRESS
 from reactive_realizer.engines.speech.neural.pronunciation import Sentence, Sound
 
 PAUSE = 0.1
@@ -22,7 +23,6 @@ _LONG_WORD = 2.0
 _WITHIN_WORD = 1.5
 """The cost of a cut in a word."""
 _VOICELESS, _STOPS = frozenset("ptkfsʃθhç"), frozenset("bdg\u0261")
-_STRESS = "ˈˌ"
 
 
 class FrameFormat(NamedTuple):
@@ -150,5 +150,5 @@ class TimedSentence:
 
 def _cost(sound: Sound) -> float:
     """How much a cut before a sound may be heard: least where it is silent for a moment, as before a voiceless stop."""
-    first = sound.symbol.lstrip(_STRESS)[:1]
+    first = sound.symbol.lstrip(STRESS)[:1]
     return 0.2 if first in _VOICELESS else 0.4 if first in _STOPS else 0.8

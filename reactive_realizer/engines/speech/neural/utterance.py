@@ -8,6 +8,7 @@ from types import MappingProxyType
 import numpy as np
 import numpy.typing as npt
 
+from reactive_realizer.engine.phonetics import onset
 from reactive_realizer.engine.tts import Phoneme, Utterance
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord, timed_words
 from reactive_realizer.engines.speech.neural.timed_sentence import PAUSE, Piece, TimedSentence
@@ -17,10 +18,6 @@ Samples = npt.NDArray[np.int16]
 
 _FADE = 0.01
 """Time over which the ends of sentences are faded, and two pieces of a sentence are cross-faded, s."""
-_PLOSIVES = frozenset("pbtdkg\u0261")
-_CLOSURE = 0.04
-"""Silence before the release of a plosive, s."""
-_STRESS = "\u02c8\u02cc"
 
 
 def as_utterance(
@@ -47,7 +44,7 @@ def as_utterance(
     for timed, begin in zip(sentences, begins, strict=False):
         following = [*(start for start, _ in timed.times[1:]), float("inf")]
         for sound, (start, end), next_ in zip(timed.sentence.sounds, timed.times, following, strict=True):
-            onsets.append((begin + _onset(sound.symbol, start, end), sound.symbol))
+            onsets.append((begin + onset(sound.symbol, start, end), sound.symbol))
             begun.append((begin + start, words[sound.word].first))
             onsets += [(begin + end, "")] if next_ - end >= PAUSE else []
     silent, duration = onsets[-1][0] if onsets else 0.0, begins[-1]
@@ -90,8 +87,3 @@ class SentenceSound:
         if last and fade:
             own[-fade:] *= ramp[::-1]
         return own.astype("<i2").tobytes()
-
-
-def _onset(symbol: str, start: float, end: float) -> float:
-    """The onset of a sound, which is the release of a plosive, s."""
-    return min(start + _CLOSURE, end) if symbol.strip(_STRESS) in _PLOSIVES else start

@@ -1,8 +1,9 @@
 """Makes utterances of recorded speech."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 
@@ -12,12 +13,15 @@ from numpy.typing import NDArray
 from reactive_realizer.binding.faults import NoAsset
 from reactive_realizer.bml.behaviors import RecordedSpeech
 from reactive_realizer.embodiment.sound_files import read_samples
-from reactive_realizer.engine.tts import Utterance, Word, word_spans
+from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
 from reactive_realizer.engines.speech.recorded.aligner import aligned
-from reactive_realizer.engines.speech.recorded.speech_times import SpeechTimes
-from reactive_realizer.engines.speech.recorded.spread import spread
+from reactive_realizer.engines.speech.recorded.phones import CMU, spelled
+from reactive_realizer.engines.speech.recorded.speech_times import SpeechTimes, phoneme
 from reactive_realizer.engines.speech.recorded.times_file import TIMES_SUFFIXES, read_times
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
+
+_AUDIBLE = 0.03
+"""Share of the greatest amplitude that is heard as speech."""
 
 
 class MarkAfterEnd(CreationFault):
@@ -120,3 +124,28 @@ def read_mono(path: Path, longest: float) -> tuple[NDArray[np.int16], int]:
     """The samples (N,) of a sound file, mixed to mono, and their rate; see `read_samples`."""
     samples, rate = read_samples(path, longest)
     return samples.mean(axis=1).astype("<i2"), rate
+
+
+def spread(words: Sequence[str], samples: NDArray[np.int16], rate: int) -> SpeechTimes:
+    """The times of words as if every character took the same time, and one passed between words.
+
+    Args:
+        words: of the text.
+        samples: mono, (N,).
+        rate: of the samples, Hz.
+    """
+    level = np.abs(samples.astype(np.int32))
+    heard = np.flatnonzero(level > _AUDIBLE * level.max())
+    first, last = (heard[0] / rate, (heard[-1] + 1) / rate) if len(heard) else (0.0, len(samples) / rate)
+    character = (last - first) / max(sum(len(word) + 1 for word in words) - 1, 1)
+    begins = [first + character * done for done in accumulate((len(word) + 1 for word in words), initial=0)]
+    spans = [(word, begin, until - character) for word, (begin, until) in zip(words, pairwise(begins), strict=True)]
+    sounds = [sound for word, begin, end in spans for sound in _sounds(word, begin, end)]
+    silence = [Phoneme("", last, len(samples) / rate - last)]
+    return SpeechTimes(tuple(begin for _, begin, _ in spans), (*sounds, *silence))
+
+
+def _sounds(word: str, begin: float, end: float) -> list[Phoneme]:
+    names = spelled(word)
+    length = (end - begin) / max(len(names), 1)
+    return [phoneme(CMU[name], begin + k * length, begin + (k + 1) * length) for k, name in enumerate(names)]

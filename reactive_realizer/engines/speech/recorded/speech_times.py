@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from reactive_realizer.engine.phonetics import onset
 from reactive_realizer.engine.tts import Phoneme
 
 
@@ -18,13 +19,7 @@ class SpeechTimes:
     phonemes: tuple[Phoneme, ...]
 
 
-CLOSURE = 0.04
-"""Time from the closure of a plosive to its release (s), which is the start of its `Phoneme`."""
-
-_PLOSIVES = frozenset("pbtdk\u0261")
-
-
 def phoneme(symbol: str, begin: float, end: float) -> Phoneme:
     """A sound from its interval, s; that of a plosive includes its closure."""
-    start = begin + min(CLOSURE, (end - begin) / 2) if symbol in _PLOSIVES else begin
+    start = onset(symbol, begin, end)
     return Phoneme(symbol, start, end - start)

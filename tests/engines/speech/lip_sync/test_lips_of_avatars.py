@@ -10,10 +10,10 @@ import pytest
 
 from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.engine.phonetics import CLOSURE
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word, completed
 from reactive_realizer.engines.face.expressions import Expressions
 from reactive_realizer.engines.face.face_unit import MOUTH_MORPHS
-from reactive_realizer.engines.speech.lip_sync.sounds import CLOSURE
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
