@@ -57,7 +57,7 @@ class CharacterSpec:
         position: on the ground, m.
         heading: rotation to its left, degrees; 0 faces +z.
         engines: ids of engines, in rank order.
-        idle: whether it has idle animation.
+        idle: degree of its idle animation, 0 to 1; true is 1, and false is 0, for none.
         blink_rate: blinks per minute of idle animation; None for the usual rate.
         liveliness: how lively it is while it speaks, 0 to 1; None for that of the scene.
         weight: of its physical body, kg; None for the usual one of its stature.
@@ -70,7 +70,7 @@ class CharacterSpec:
     position: Vec3 = ZERO
     heading: float = 0.0
     engines: tuple[str, ...] = DEFAULT_ENGINES
-    idle: bool = True
+    idle: bool | float = 1.0
     blink_rate: float | None = None
     liveliness: float | None = None
     weight: float | None = None
@@ -158,6 +158,8 @@ class _Reader:
             raise self._bad(f"{key}.weight", f"{spec.weight:g} is not from {LIGHTEST:g} to {HEAVIEST:g} kg")
         if spec.blink_rate is not None and not 0.0 <= spec.blink_rate <= MOST_BLINKS:
             raise self._bad(f"{key}.blink_rate", f"{spec.blink_rate:g} is not from 0 to {MOST_BLINKS:g} per minute")
+        if not 0.0 <= spec.idle <= 1.0:
+            raise self._bad(f"{key}.idle", f"{spec.idle:g} is not from 0 to 1")
         if spec.liveliness is not None and not 0.0 <= spec.liveliness <= 1.0:
             raise self._bad(f"{key}.liveliness", f"{spec.liveliness:g} is not from 0 to 1")
         steps = spec.simulation_steps
@@ -213,6 +215,8 @@ class _Reader:
             return float(value)
         if number and kind in (type(value), type(value) | None):
             return value
+        if kind == bool | float and (number or isinstance(value, bool)):
+            return float(value)
         if kind in (str, bool) and isinstance(value, kind):
             return value
         if kind == Vec3 and isinstance(value, list) and len(value) == 3:

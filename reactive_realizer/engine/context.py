@@ -44,7 +44,7 @@ class EngineContext:
         time: the time of the present tick, s, for cells that change with time.
         trajectories: for changes of parameters, by name.
         functions: pure functions that formulas of animations may call besides the built-in ones, by name.
-        idle: whether the character has idle animation.
+        idle: degree of its idle animation, 0 to 1; 0 for none.
         blink_rate: blinks per minute of idle animation; None for the usual rate.
         limits: on what the engines read.
         liveliness: how lively it is while it speaks, 0 to 1; None if only a speech may ask for that.
@@ -63,7 +63,7 @@ class EngineContext:
     time: Source[GlobalTime] = field(default_factory=lambda: Source(Graph(), "time", GlobalTime(0.0)))
     trajectories: Mapping[str, TrajectoryFunction] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., float]] = field(default_factory=dict)
-    idle: bool = True
+    idle: float = 1.0
     blink_rate: float | None = None
     limits: Limits = field(default_factory=Limits)
     liveliness: float | None = None

@@ -131,7 +131,7 @@ class AnimationEngine(DefaultEngine):
         )
         self._library = MotionLibrary(binding, maker_context)
         rate = USUAL_RATE if context.blink_rate is None else context.blink_rate
-        self._idle = Idle(Random(context.seed), rate) if context.idle else None
+        self._idle = Idle(Random(context.seed), rate, context.idle) if context.idle else None
         self._late_hands = LateHands(context.humanoid)
         self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)

@@ -20,8 +20,14 @@ C. Sforza and others, "Spontaneous blinking in healthy persons: an optoelectroni
 and Physiological Optics 28, 2008).
 """
 
-_SPREAD = 0.6
-"""Standard deviation of the logarithm of the time between blinks, our choice."""
+_SPREAD = 0.65
+"""Standard deviation of the logarithm of the time between blinks, our choice: their coefficient of variation is 0.7."""
+
+_PARTIAL = 0.2
+"""Share of the blinks at random intervals that close the lids only in part (ours)."""
+
+_DEPTH = (0.45, 0.8)
+"""How far those close at least and at most."""
 
 _SHORTEST = 0.5
 """Shortest time from one blink to the next, s."""
@@ -42,7 +48,9 @@ class Blinks:
             per_minute: rate of the blinks at random intervals, above 0.
         """
         middle = math.log(60.0 / per_minute) - 0.5 * _SPREAD * _SPREAD
-        self._episodes = Episodes(None, lambda: (max(_SHORTEST, random.lognormvariate(middle, _SPREAD)), None))
+        self._episodes = Episodes(
+            1.0, lambda: (max(_SHORTEST, random.lognormvariate(middle, _SPREAD)), _drawn_depth(random))
+        )
         self._requested = -math.inf
 
     def request_blink(self, time: float) -> None:
@@ -58,8 +66,12 @@ class Blinks:
         """Return how far the lids are closed, 0 to 1."""
         now, _ = self._episodes.at(time)
         # The first episode starts with open eyes.
-        own = _shut(time - now.since) if now.since > 0.0 else 0.0
+        own = now.what * _shut(time - now.since) if now.since > 0.0 else 0.0
         return max(own, _shut(time - self._requested))
+
+
+def _drawn_depth(random: Random) -> float:
+    return random.uniform(*_DEPTH) if random.random() < _PARTIAL else 1.0
 
 
 def _shut(passed: float) -> float:

@@ -1,4 +1,4 @@
-"""Idle animation: breathing, sway, weight shifts, blinks and glances. Without it a figure looks frozen."""
+"""Idle animation: breathing, sway, weight shifts, fingers, blinks and glances. Without it a figure looks frozen."""
 
 import math
 from random import Random
@@ -8,6 +8,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.engines.animation.blinks import USUAL_RATE, Blinks
 from reactive_realizer.engines.animation.idle_movements import Breath, Glances, WeightShift, leaning
+from reactive_realizer.engines.animation.idle_waves import Fixation, Looseness
 
 _WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
 """Sway to the side, forward and about the vertical: for each a slow and a fast wave, rad/s, and their phase, rad."""
@@ -22,19 +23,23 @@ _UPRIGHT = 0.1
 class Idle:
     """Idle motion as functions of time. Figures with different seeds move differently."""
 
-    def __init__(self, random: Random, blink_rate: float = USUAL_RATE) -> None:
+    def __init__(self, random: Random, blink_rate: float = USUAL_RATE, degree: float = 1.0) -> None:
         """Draw all random choices from a generator that must not be shared.
 
         Args:
             random: the generator.
             blink_rate: blinks per minute; 0 for none.
+            degree: how far trunk, head, fingers and eyes move, 0 to 1; blinks do not depend on it.
         """
+        self._degree = degree
         self._breath = Breath(Random(random.getrandbits(64)))
         self._sway = random.uniform(0.0, 100.0)
         blinking = Random(random.getrandbits(64))
         self._blinks = Blinks(blinking, blink_rate) if blink_rate > 0.0 else None
         self._shift = WeightShift(Random(random.getrandbits(64)))
         self._glances = Glances(Random(random.getrandbits(64)))
+        self._looseness = Looseness(Random(random.getrandbits(64)))
+        self._fixation = Fixation(Random(random.getrandbits(64)))
 
     def layer(self, time: float, sunk: float) -> Layer:
         """Return the additive layer at a time.
@@ -44,27 +49,31 @@ class Idle:
             sunk: how much lower the pelvis is than in standing, m; a sitting figure does not shift its weight.
         """
         standing = max(0.0, 1.0 - max(0.0, sunk) / _UPRIGHT)
-        turns, root = leaning(self._shift.at(time) * standing)
+        turns, root = leaning(self._degree * self._shift.at(time) * standing)
         alive = self.rotations(time)
         joined = {joint: multiply(turns[joint], turn) if joint in turns else turn for joint, turn in alive.items()}
         return Layer(LayerKind.ADDITIVE, {**turns, **joined}, root=root)
 
     def rotations(self, time: float) -> dict[str, Quat]:
-        """Return breathing and sway: the chest rises, the head stays level, the trunk is never quite still."""
-        air = self._breath.air(time)
-        side, forth, turn = (_wave(time + self._sway, *wave) for wave in _WAVES)
+        """Return breathing, sway and looseness: the chest rises, and no part of the body is ever quite still."""
+        degree = self._degree
+        air = degree * self._breath.air(time)
+        side, forth, turn = (degree * _wave(time + self._sway, *wave) for wave in _WAVES)
+        nod, aside, tilt = (0.5 * degree * angle for angle in self._looseness.head(time))
         return {
             "vl5": from_euler(0.006 * forth, 0.008 * turn, 0.006 * side),
             "vt6": from_euler(-0.016 * air, 0.0, 0.0),
             "l_sternoclavicular": from_euler(0.0, 0.0, 0.022 * air),
             "r_sternoclavicular": from_euler(0.0, 0.0, -0.022 * air),
-            "vc4": from_euler(0.012 * air - 0.006 * forth, 0.0, -0.006 * side),
-            "skullbase": from_euler(0.006 * forth, 0.010 * turn, 0.004 * side),
+            "vc4": from_euler(0.012 * air - 0.006 * forth + nod, aside, tilt - 0.006 * side),
+            "skullbase": from_euler(0.006 * forth + nod, 0.010 * turn + aside, 0.004 * side + tilt),
+            **self._looseness.fingers(time, degree),
         }
 
     def eyes(self, time: float) -> dict[str, Quat]:
-        """Return the rotations of eyes without a target."""
-        yaw, pitch = self._glances.at(time)
+        """Return the rotations of eyes without a target: glances, microsaccades and drift."""
+        directions = zip(self._glances.at(time), self._fixation.at(time), strict=True)
+        yaw, pitch = (self._degree * (glance + tremor) for glance, tremor in directions)
         turn = from_euler(-pitch, yaw, 0.0)
         return dict.fromkeys(EYES, turn)
 

@@ -33,7 +33,7 @@ class Episodes(Generic[T]):
         draw: returns the duration of the last episode, s, and the next state, from a generator that must not be shared.
     """
 
-    KEPT = 64
+    KEPT = 128
 
     def __init__(self, first: T, draw: Callable[[], tuple[float, T]]) -> None:
         self._draw = draw

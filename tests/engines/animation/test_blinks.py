@@ -1,9 +1,9 @@
 """Blinks of a figure: their rate, their intervals and their course."""
 
-from itertools import pairwise
+from itertools import groupby, pairwise
 from pathlib import Path
 from random import Random
-from statistics import mean, median
+from statistics import mean, median, stdev
 
 import pytest
 
@@ -27,6 +27,16 @@ def test_intervals_have_the_mean_of_the_rate_most_are_short_and_a_few_long(rate:
     assert median(gaps) < 0.9 * mean(gaps)
     assert max(gaps) > 2.5 * mean(gaps)
     assert min(gaps) >= 0.49
+    assert stdev(gaps) / mean(gaps) == pytest.approx(0.7, abs=0.15)
+
+
+def test_some_blinks_close_the_lids_only_in_part() -> None:
+    blinks = Blinks(Random(7), 17.0)
+    frames = [blinks.closed(i / 100) for i in range(120000)]
+    depths = [max(closed) for moving, closed in groupby(frames, lambda weight: weight > 0.0) if moving]
+    partial = [depth for depth in depths if depth < 0.95]
+    assert 0.1 < len(partial) / len(depths) < 0.3
+    assert 0.4 < min(partial) < max(partial) < 0.85
 
 
 def test_lids_close_within_100_ms_and_open_within_150_ms() -> None:

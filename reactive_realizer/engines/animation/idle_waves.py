@@ -1,0 +1,112 @@
+"""Idle movements that never stop: the head wanders, fingers are loose, and eyes are never still."""
+
+import math
+from random import Random
+from typing import NamedTuple
+
+from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle
+from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.engines.animation.easing import minimum_jerk
+from reactive_realizer.engines.animation.idle_movements import Episodes
+
+_QUICKER = 0.3
+"""Share of the faster wave in a movement."""
+
+_SLOW, _FAST = (0.35, 0.6), (1.0, 1.6)
+"""Lowest and highest angular frequency of the two waves of a movement, rad/s: it has no visible period."""
+
+
+class _Wave(NamedTuple):
+    """A slow movement of an angle."""
+
+    slow: float
+    fast: float
+    begin: float
+
+    @classmethod
+    def drawn(cls, random: Random) -> "_Wave":
+        """Return a wave of its own."""
+        return cls(random.uniform(*_SLOW), random.uniform(*_FAST), random.uniform(0.0, 100.0))
+
+    def at(self, time: float) -> float:
+        """Return the movement at a time, -1 to 1."""
+        passed = time + self.begin
+        return (1.0 - _QUICKER) * math.sin(self.slow * passed) + _QUICKER * math.sin(self.fast * passed)
+
+
+_HEAD: Vec3 = (0.012, 0.019, 0.007)
+"""How far the head nods, turns and tilts, rad. It moves by 1 to 3 degrees in a minute (ours)."""
+
+_FINGERS = {"index": 0.012, "middle": 0.03, "ring": 0.036, "pinky": 0.036}
+"""How far fingers bend and stretch, rad: pointing needs the index finger."""
+
+_CURLING: dict[str, Vec3] = {"l": (0.0, 0.0, -1.0), "r": (0.0, 0.0, 1.0)}
+
+
+class Looseness:
+    """The movement of head and fingers that nobody intends, in people who stand or sit still."""
+
+    def __init__(self, random: Random) -> None:
+        """Draw from a generator that must not be shared."""
+        self._head = tuple(_Wave.drawn(random) for _ in _HEAD)
+        self._fingers = [
+            (f"{side}_{finger}1", _CURLING[side], size, _Wave.drawn(random))
+            for side in SIDES
+            for finger, size in _FINGERS.items()
+        ]
+
+    def head(self, time: float) -> Vec3:
+        """Return the turns of the head at a time, s: nod, turn and tilt, rad."""
+        nod, turn, tilt = (size * wave.at(time) for size, wave in zip(_HEAD, self._head, strict=True))
+        return nod, turn, tilt
+
+    def fingers(self, time: float, degree: float) -> dict[str, Quat]:
+        """Return the turns of fingers at a time, s, scaled by a degree."""
+        return {
+            joint: from_axis_angle(axis, degree * size * wave.at(time)) for joint, axis, size, wave in self._fingers
+        }
+
+
+_INTERVAL = (0.35, 1.2)
+"""Shortest and longest time between microsaccades, s."""
+
+_AROUND = math.radians(0.09)
+"""Standard deviation of where they lead, in each direction, rad."""
+
+_FURTHEST = math.radians(0.2)
+"""Limit of that, rad."""
+
+_DRIFT = math.radians(0.1)
+"""Fastest drift between them, rad/s."""
+
+_TAKES = 0.025
+"""Duration of a microsaccade, s."""
+
+
+class Fixation:
+    """Microsaccades and drift: eyes on a target are never still.
+
+    S. Martinez-Conde, S. L. Macknik and D. H. Hubel, "The role of fixational eye movements in visual perception"
+    (Nature Reviews Neuroscience 5, 2004): one or two microsaccades a second, and slow drift between them. Both are
+    smaller here, so that the eyes stay within half a degree of their target.
+    """
+
+    def __init__(self, random: Random) -> None:
+        """Draw from a generator that must not be shared."""
+        self._random = random
+        self._episodes = Episodes((0.0, 0.0, 0.0, 0.0), self._draw)
+
+    def _draw(self) -> tuple[float, tuple[float, float, float, float]]:
+        place = (max(-_FURTHEST, min(_FURTHEST, self._random.gauss(0.0, _AROUND))) for _ in range(2))
+        drift = (self._random.uniform(-_DRIFT, _DRIFT) for _ in range(2))
+        return self._random.uniform(*_INTERVAL), (*place, *drift)  # type: ignore[return-value]
+
+    def at(self, time: float) -> tuple[float, float]:
+        """Return how far both eyes look to the left of and above their target at a time, s, rad."""
+        now, before = self._episodes.at(time)
+        (x, y, dx, dy), (from_x, from_y, from_dx, from_dy) = now.what, before.what
+        passed, all_before = time - now.since, now.since - before.since
+        done = minimum_jerk(passed / _TAKES)
+        old_x, old_y = from_x + from_dx * all_before, from_y + from_dy * all_before
+        return old_x + (x + dx * passed - old_x) * done, old_y + (y + dy * passed - old_y) * done

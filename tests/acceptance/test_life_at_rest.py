@@ -1,0 +1,54 @@
+"""A character that nobody asks for anything is alive, from frames of a minute."""
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.quaternion import angle, difference, rotate
+from reactive_realizer.embodiment.vector import FORWARD
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+
+async def minute(pilot: RealizerPilot) -> list[Body]:
+    pilot.watch()
+    await pilot.advance(60)
+    return pilot.bodies("alice")
+
+
+def directions(bodies: list[Body], joint: str) -> NDArray[np.float64]:
+    """Yaw and pitch of where a joint faces in the world, degrees, (F, 2)."""
+    ahead = [rotate(body.transform(joint).rotation, FORWARD) for body in bodies]
+    return np.degrees([(math.atan2(x, z), math.asin(y)) for x, y, z in ahead])
+
+
+def turned(bodies: list[Body], joint: str) -> float:
+    """How far a joint turns at most between any frame and the first one, degrees."""
+    first = bodies[0].rotation(joint)
+    return math.degrees(max(angle(difference(first, body.rotation(joint))) for body in bodies))
+
+
+async def test_head_fingers_and_eyes_move_a_little() -> None:
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        bodies = await minute(pilot)
+    head = directions(bodies, "skullbase")
+    assert 1.0 < np.ptp(head, axis=0).max() < 3.0 * math.sqrt(2.0)
+    assert 1.0 < np.linalg.norm(head - head.mean(axis=0), axis=1).max() < 3.0
+    assert all(turned(bodies, f"{side}_{finger}1") > 1.0 for side in "lr" for finger in ("middle", "ring", "pinky"))
+    eyes = [body.rotation("l_eyeball_joint") for body in bodies]
+    saccades = [step for one, other in pairwise(eyes) if (step := math.degrees(angle(difference(one, other)))) > 0.05]
+    assert len(saccades) > 40
+
+
+@pytest.mark.parametrize(("degree", "most"), [(0.3, 1.0), (0, 0.0)])
+async def test_idle_has_a_degree(tmp_path: Path, degree: float, most: float) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text(f"[character.alice]\nidle = {degree}\n", encoding="utf-8")
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        head = directions(await minute(pilot), "skullbase")
+    assert np.linalg.norm(head - head.mean(axis=0), axis=1).max() <= most
