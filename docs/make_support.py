@@ -82,6 +82,8 @@ _NOTES = {
     "parameter of any behavior name": "of [the motion that plays it](binding.md#kinds-of-motion)",
     "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
     "emit event": "its content, of any kind, is for planners",
+    "idleChange parameter": "breaths per minute, their depth relative to that at rest, blinks per minute",
+    "idleChange value": "reached at the end, evenly, and kept until another change",
     "keyPoses group": "the joints that move; only arms have `position` and `swivel`, and only heads `lookAt`",
     "keyPoses fadeIn": "time in which it takes over the joints",
     "keyPoses fadeOut": "time in which it releases them, from `relax` to `end`",
@@ -170,7 +172,8 @@ otherwise the first one |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
-`keyPoses` is in the namespace `urn:reactive-realizer:1` ([key poses in BML](embrscript.md#key-poses-in-bml)).
+`keyPoses` and `idleChange` are in the namespace `urn:reactive-realizer:1`
+([key poses in BML](embrscript.md#key-poses-in-bml)).
 
 `procanimation`, `procanimationgesture`, `keyframe`, `noise`, `transition` and `audiofile` are in the namespace
 `http://hmi.ewi.utwente.nl/bmlt`. The motion of such an element, or of a `gesture` or `head`, can have additional sync
@@ -238,7 +241,7 @@ _EMBR_NOTES = {
     "POSE_TARGET": "`pose`",
     "MORPH_TARGET": "`bmlt:facekeyframe`",
     "SHADER": "`bmlt:facekeyframe`; `blushing` and `paling`",
-    "AUTONOMOUS_BEHAVIOR": "not realized: autonomous behaviors keep their parameters",
+    "AUTONOMOUS_BEHAVIOR": "`idleChange`; `breathingFrequency`, `breathingAmplitude` and `blinkProbability`",
 }
 """Element of EMBRScript -> what it is read as."""
 

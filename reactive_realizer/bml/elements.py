@@ -40,6 +40,7 @@ from reactive_realizer.bml.extensions import (
     ProcAnimationGesture,
     Transition,
 )
+from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS
 
@@ -135,6 +136,7 @@ _BEHAVIORS = (
     FacePlutchik,
     FaceKeyframe,
     KeyPoses,
+    IdleChange,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})

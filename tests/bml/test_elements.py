@@ -44,6 +44,7 @@ from reactive_realizer.bml.extensions import (
     Trajectory,
     Transition,
 )
+from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN, Location
 from reactive_realizer.bml.vocabulary import (
@@ -223,6 +224,11 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         {"group": BodyGroup.HEAD, "fade_in": 0.2, "fade_out": 0.3, "warp": WarpKind.EXP, "steepness": 3.0},
         ("start", "relax", "end"),
     ),
+    '<rr:idleChange id="x" parameter="BLINK_RATE" value="9"/>': (
+        IdleChange,
+        {"parameter": IdleParameter.BLINK_RATE, "value": 9.0},
+        SHIFT,
+    ),
 }
 
 
@@ -275,7 +281,7 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
             prefix = PREFIXES[element.namespace]
             values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
             values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
-            values |= {"filename": "clap.wav", "group": "HEAD"}
+            values |= {"filename": "clap.wav", "group": "HEAD", "parameter": "BLINK_RATE"}
             values |= {
                 "targetname": "grin",
                 "intensity": "0.5",

@@ -7,6 +7,7 @@ from reactive_realizer.bml.block import CAST, BehaviorBlock, Parsed
 from reactive_realizer.bml.dialects import BML_DIALECT, Dialects
 from reactive_realizer.bml.embr.reader import DIALECT, read
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
+from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.key_poses import KeyPoses, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, Composition, FacePart, WarpKind
 from reactive_realizer.limits import Limits
@@ -248,6 +249,26 @@ def test_what_is_not_realized_is_named_once() -> None:
     text = "BEGIN NUCLEUS\nNUCLEUS_ID:1\nPOWER:1\nEND\n" + script(pose.format(200), pose.format(900))
     ((line, sentence),) = problems(text)
     assert (line, sentence.partition(":")[0]) == (9, "NUCLEUS has no effect")
+
+
+def test_autonomous_behaviors_change_the_parameters_of_idle_animation() -> None:
+    change = "BEGIN AUTONOMOUS_BEHAVIOR\nBEHAVIOR_KEY:{}\nBEHAVIOR_VALUE:{}\nEND"
+    changes = (("breathingFrequency", 0.4), ("breathingAmplitude", 0.3), ("blinkProbability", 3000), ("sweating", 1))
+    first, second = (
+        f"TIME_POINT:+{time}\n" + "\n".join(change.format(*each) for each in changes) for time in (500, 900)
+    )
+    text = script(first, second)
+    ((line, sentence),) = problems(text)
+    assert (line, sentence.partition(":")[0]) == (17, "AUTONOMOUS_BEHAVIOR sweating has no effect")
+    found = parsed(text).block
+    assert found is not None
+    idle = [each for each in found.behaviors if isinstance(each, IdleChange)]
+    assert [(each.parameter, each.value) for each in idle[:3]] == [
+        (IdleParameter.BREATHING_RATE, 24.0),
+        (IdleParameter.BREATHING_DEPTH, 3.0),
+        (IdleParameter.BLINK_RATE, 20.0),
+    ]
+    assert {sync: str(ref) for sync, ref in idle[3].syncs.items()} == {"start": "0.5", "end": "0.9"}
 
 
 def test_a_stray_end_is_named() -> None:

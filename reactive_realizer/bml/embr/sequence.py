@@ -13,8 +13,9 @@ from reactive_realizer.bml.embr.goals import GOALS, read_goal
 from reactive_realizer.bml.embr.syntax import AUTONOMOUS, CLIP, MORPH, Node
 from reactive_realizer.bml.embr.timeline import Timed, sequence_start, timed
 from reactive_realizer.bml.embr.values import Notes
-from reactive_realizer.bml.embr.words import MORPHS, SHADERS, Expression
+from reactive_realizer.bml.embr.words import AUTONOMOUS_KEYS, MORPHS, SHADERS, Expression
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
+from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import Goal, KeyPose, KeyPoses
 from reactive_realizer.bml.names import BMLT, OWN, Location, is_sync_id
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -71,6 +72,7 @@ class SequenceReader:
         self._warp = self._warp_of(node)
         self._groups: dict[BodyGroup, list[_Step]] = {}
         self._weights: dict[tuple[str, str], list[_Step]] = {}
+        self._changes: list[tuple[Timed, Node, str, float]] = []
         self._clips: list[Timed] = []
         for each in timed(node, self._start, notes):
             if each.node.name == CLIP:
@@ -84,6 +86,14 @@ class SequenceReader:
             yield self._key_poses(group, steps)
         for (kind, key), steps in self._weights.items():
             yield self._face(kind, key, steps)
+        for number, (at, node, key, value) in enumerate(self._changes, 1):
+            parameter, amount = AUTONOMOUS_KEYS[key].read(value)
+            yield IdleChange(
+                **self._common(f"{_id_of(key)}{number}", "idleChange", OWN, node.location),
+                syncs=self._syncs(self._start + at.begins, self._start + at.reached),
+                parameter=parameter,
+                value=amount,
+            )
         for number, clip in enumerate(self._clips, 1):
             try:
                 yield self._clip(clip, number)
@@ -120,9 +130,7 @@ class SequenceReader:
                     group, goal = self._notes.body_group(constraint), read_goal(constraint, self._notes)
                     groups.setdefault(group, []).append((constraint, goal))
                 elif constraint.name == AUTONOMOUS:
-                    key = self._notes.text(constraint, "BEHAVIOR_KEY")
-                    reason = "autonomous behaviors keep their parameters"
-                    self._notes.left_out(f"AUTONOMOUS_BEHAVIOR {quoted(key)}", reason, constraint.location)
+                    self._take_change(at, constraint)
                 else:
                     self._take_weight(at, constraint)
             except RealizerError as refused:
@@ -133,6 +141,14 @@ class SequenceReader:
             goals = tuple(goal for _, goal in read)
             warp = self._warp_of(*nodes, at.node)
             steps.append(_Step(at, 0.0, goals, self._feedback(nodes, steps), warp, nodes[0].location))
+
+    def _take_change(self, at: Timed, node: Node) -> None:
+        key, value = self._notes.text(node, "BEHAVIOR_KEY"), self._notes.number(node, "BEHAVIOR_VALUE", low=0.0)
+        if key not in AUTONOMOUS_KEYS:
+            reason = f"known are {', '.join(AUTONOMOUS_KEYS)}"
+            self._notes.left_out(f"AUTONOMOUS_BEHAVIOR {quoted(key)}", reason, node.location)
+        else:
+            self._changes.append((at, node, key, value))
 
     def _take_weight(self, at: Timed, node: Node) -> None:
         kind = "MORPH" if node.name == MORPH else "SHADER"

@@ -21,6 +21,7 @@ from reactive_realizer.bml.behaviors import (
     PostureShift,
 )
 from reactive_realizer.bml.extensions import MOTIONS
+from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.ticker import Tick
@@ -50,10 +51,12 @@ from reactive_realizer.engines.animation.fade_out import (
     visible_part,
     with_reached_root,
 )
+from reactive_realizer.engines.animation.faults import NoIdle
 from reactive_realizer.engines.animation.gaze.eye_controller import EyeController
 from reactive_realizer.engines.animation.gaze.eyes import lid_weights
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
 from reactive_realizer.engines.animation.idle import Idle
+from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
 from reactive_realizer.engines.animation.kinematics import MotionHistory
 from reactive_realizer.engines.animation.late_hands import LateHands
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
@@ -72,6 +75,7 @@ from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.walk import Walk
 from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.engines.animation.walking.step_turn import StepTurns
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.planunit.parameter import Range
@@ -89,6 +93,7 @@ class AnimationEngine(DefaultEngine):
 
     behaviors = MOTIONS | {
         KeyPoses,
+        IdleChange,
         Gesture,
         Head,
         HeadDirectionShift,
@@ -180,6 +185,8 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: there is no motion for it, or no such target.
         """
+        if isinstance(behavior, IdleChange):
+            return self._idle_change(BlockKey("", ""), behavior).timing.points
         self._library.refresh()
         if self._library.preloads(behavior):
             return None
@@ -191,12 +198,14 @@ class AnimationEngine(DefaultEngine):
         works = self._library.preloads(behavior)
         return asyncio.to_thread(lambda: [work() for work in works]) if works else None
 
-    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> AnimationUnit:
+    def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """Plan the motion that the binding has for the behavior.
 
         Raises:
             RealizerError: there is no motion for it, or no such target.
         """
+        if isinstance(behavior, IdleChange):
+            return self._idle_change(block, behavior)
         while self._drafts and not _precedes(next(reversed(self._drafts.values())), block, behavior):
             self._drafts.popitem()
         if not self._drafts:
@@ -230,6 +239,17 @@ class AnimationEngine(DefaultEngine):
             *self._interrupted_bodies,
         )
 
+    def _idle_change(self, block: BlockKey, behavior: IdleChange) -> IdleChangeUnit:
+        """Plan a change of idle animation.
+
+        Raises:
+            RealizerError: "no-idle": the figure has none.
+        """
+        if self._idle is None:
+            raise RealizerError(NoIdle())
+        goal = self._idle.relative(behavior.parameter, behavior.value)
+        return IdleChangeUnit(block, behavior, self._idle.courses[behavior.parameter], goal)
+
     def _unit(self, block: BlockKey, behavior: Behavior) -> AnimationUnit:
         candidates = self._library.candidates(behavior)
         if isinstance(candidates.planned.motion, TransitionMotionUnit):
@@ -252,7 +272,9 @@ class AnimationEngine(DefaultEngine):
         return draft if follows else None
 
     def reset(self, time: GlobalTime) -> None:
-        """Return to the initial posture and gaze."""
+        """Return to the initial posture and gaze, and to usual idle animation."""
+        if self._idle is not None:
+            self._idle.reset(time)
         self._release(self._persistent.clear(), time)
         self._eye_controller.note_change(time)
         base, body = self._base(), self._rest.body
@@ -287,6 +309,9 @@ class AnimationEngine(DefaultEngine):
         return layers
 
     def _breath(self, now: GlobalTime) -> tuple[Layer, ...]:
+        for unit in self.player.playing:
+            if isinstance(unit, IdleChangeUnit):
+                unit.follow(now)
         return self._idle_part(
             lambda idle: (checked(idle.layer(now, self._walk.stiffness - self._humanoid.body.root[1])),), ()
         )

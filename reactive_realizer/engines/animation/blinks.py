@@ -62,11 +62,17 @@ class Blinks:
         if time - self._requested >= _CLOSING + _OPENING:
             self._requested = time
 
-    def closed(self, time: float) -> float:
-        """Return how far the lids are closed, 0 to 1."""
-        now, _ = self._episodes.at(time)
-        # The first episode starts with open eyes.
-        own = now.what * _shut(time - now.since) if now.since > 0.0 else 0.0
+    def closed(self, time: float, advanced: float, pace: float) -> float:
+        """Return how far the lids are closed, 0 to 1.
+
+        Args:
+            time: s.
+            advanced: how far the random intervals have advanced, s; the time itself at their own rate.
+            pace: at which they advance now, relative to their own rate.
+        """
+        now, _ = self._episodes.at(advanced)
+        # The first episode starts with open eyes. However often they come, blinks take their time.
+        own = now.what * _shut((advanced - now.since) / pace) if now.since > 0.0 and pace > 0.0 else 0.0
         return max(own, _shut(time - self._requested))
 
 

@@ -197,6 +197,13 @@ class JointsLeftOut(PlayingFault):
     element: str
 
 
+class NoIdle(CreationFault):
+    """A change of idle animation that a figure does not have."""
+
+    code = "no-idle"
+    template = "this character has no idle animation: the human file says so"
+
+
 class NoGroup(CreationFault):
     """No body group has the name."""
 

@@ -1,13 +1,16 @@
 """Idle animation: breathing, sway, weight shifts, fingers, blinks and glances. Without it a figure looks frozen."""
 
 import math
+from collections.abc import Mapping
 from random import Random
 
+from reactive_realizer.bml.idle_change import IdleParameter
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.engines.animation.blinks import USUAL_RATE, Blinks
-from reactive_realizer.engines.animation.idle_movements import Breath, Glances, WeightShift, leaning
+from reactive_realizer.engines.animation.idle_course import IdleCourse
+from reactive_realizer.engines.animation.idle_movements import USUAL_BREATHING, Breath, Glances, WeightShift, leaning
 from reactive_realizer.engines.animation.idle_waves import Fixation, Looseness
 
 _WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
@@ -21,7 +24,11 @@ _UPRIGHT = 0.1
 
 
 class Idle:
-    """Idle motion as functions of time. Figures with different seeds move differently."""
+    """Idle motion as functions of time. Figures with different seeds move differently.
+
+    Attributes:
+        courses: of its parameters, relative to their usual values.
+    """
 
     def __init__(self, random: Random, blink_rate: float = USUAL_RATE, degree: float = 1.0) -> None:
         """Draw all random choices from a generator that must not be shared.
@@ -32,14 +39,30 @@ class Idle:
             degree: how far trunk, head, fingers and eyes move, 0 to 1; blinks do not depend on it.
         """
         self._degree = degree
+        self.courses: Mapping[IdleParameter, IdleCourse] = {
+            IdleParameter.BREATHING_RATE: IdleCourse(1.0),
+            IdleParameter.BREATHING_DEPTH: IdleCourse(1.0),
+            IdleParameter.BLINK_RATE: IdleCourse(1.0 if blink_rate > 0.0 else 0.0),
+        }
+        self._blink_rate = blink_rate or USUAL_RATE
         self._breath = Breath(Random(random.getrandbits(64)))
         self._sway = random.uniform(0.0, 100.0)
         blinking = Random(random.getrandbits(64))
-        self._blinks = Blinks(blinking, blink_rate) if blink_rate > 0.0 else None
+        self._blinks = Blinks(blinking, self._blink_rate)
         self._shift = WeightShift(Random(random.getrandbits(64)))
         self._glances = Glances(Random(random.getrandbits(64)))
         self._looseness = Looseness(Random(random.getrandbits(64)))
         self._fixation = Fixation(Random(random.getrandbits(64)))
+
+    def relative(self, parameter: IdleParameter, value: float) -> float:
+        """Return a value of a parameter relative to its usual one."""
+        usual = {IdleParameter.BREATHING_RATE: USUAL_BREATHING, IdleParameter.BLINK_RATE: self._blink_rate}
+        return value / usual.get(parameter, 1.0)
+
+    def reset(self, time: float) -> None:
+        """Return to the usual values of all parameters."""
+        for course in self.courses.values():
+            course.reset(time)
 
     def layer(self, time: float, sunk: float) -> Layer:
         """Return the additive layer at a time.
@@ -57,7 +80,8 @@ class Idle:
     def rotations(self, time: float) -> dict[str, Quat]:
         """Return breathing, sway and looseness: the chest rises, and no part of the body is ever quite still."""
         degree = self._degree
-        air = degree * self._breath.air(time)
+        rate, depth = (self.courses[each] for each in (IdleParameter.BREATHING_RATE, IdleParameter.BREATHING_DEPTH))
+        air = degree * depth.value(time) * self._breath.air(rate.integral(time))
         side, forth, turn = (degree * _wave(time + self._sway, *wave) for wave in _WAVES)
         nod, aside, tilt = (0.5 * degree * angle for angle in self._looseness.head(time))
         return {
@@ -79,12 +103,13 @@ class Idle:
 
     def blink(self, time: float) -> None:
         """Blink at a time, s, as with a large turn of gaze."""
-        if self._blinks is not None:
+        if self.courses[IdleParameter.BLINK_RATE].value(time) > 0.0:
             self._blinks.request_blink(time)
 
     def blinks(self, time: float) -> dict[str, float]:
         """Return the morph weights of blinks at a time, s."""
-        closed = 0.0 if self._blinks is None else self._blinks.closed(time)
+        rate = self.courses[IdleParameter.BLINK_RATE]
+        closed = self._blinks.closed(time, rate.integral(time), rate.value(time))
         return {"eyeBlinkLeft": closed, "eyeBlinkRight": closed}
 
 

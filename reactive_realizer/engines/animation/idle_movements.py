@@ -51,6 +51,9 @@ class Episodes(Generic[T]):
 _LASTS = (3.4, 4.8)
 """Shortest and longest breath, s: 12.5 to 17.6 per minute."""
 
+USUAL_BREATHING = 60.0 / (0.5 * (_LASTS[0] + _LASTS[1]))
+"""Breaths per minute, on average."""
+
 _DEPTH = (0.7, 1.2)
 """Shallowest and deepest breath."""
 

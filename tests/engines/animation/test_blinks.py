@@ -13,9 +13,14 @@ from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.testing.pilot import open_pilot
 
 
+def lids(blinks: Blinks, time: float) -> float:
+    """How far the lids are closed at the rate of the blinks themselves."""
+    return blinks.closed(time, time, 1.0)
+
+
 def begins(blinks: Blinks, seconds: float) -> list[float]:
     """The times at which the lids begin to close, s."""
-    frames = [blinks.closed(i / 100) for i in range(round(seconds * 100))]
+    frames = [lids(blinks, i / 100) for i in range(round(seconds * 100))]
     return [i / 100 for i, (a, b) in enumerate(pairwise(frames)) if a == 0.0 < b]
 
 
@@ -32,7 +37,7 @@ def test_intervals_have_the_mean_of_the_rate_most_are_short_and_a_few_long(rate:
 
 def test_some_blinks_close_the_lids_only_in_part() -> None:
     blinks = Blinks(Random(7), 17.0)
-    frames = [blinks.closed(i / 100) for i in range(120000)]
+    frames = [lids(blinks, i / 100) for i in range(120000)]
     depths = [max(closed) for moving, closed in groupby(frames, lambda weight: weight > 0.0) if moving]
     partial = [depth for depth in depths if depth < 0.95]
     assert 0.1 < len(partial) / len(depths) < 0.3
@@ -43,7 +48,7 @@ def test_lids_close_within_100_ms_and_open_within_150_ms() -> None:
     """They close faster by 40 to 47 %: C. Sforza and others (Ophthalmic and Physiological Optics 28, 2008)."""
     blinks = Blinks(Random(7), 17.0)
     (start, *_) = begins(blinks, 20.0)
-    closed = [blinks.closed(start + i / 1000) for i in range(300)]
+    closed = [lids(blinks, start + i / 1000) for i in range(300)]
     shut = closed.index(max(closed))
     assert max(closed) > 0.999
     assert 75 <= shut <= 100
@@ -55,7 +60,7 @@ def test_a_requested_blink_starts_at_once_and_a_second_one_within_it_is_none_of_
     asked = begins(blinks, 20.0)[0] + 0.4
     blinks.request_blink(asked)
     blinks.request_blink(asked + 0.1)
-    closed = [blinks.closed(asked + i / 1000) for i in range(250)]
+    closed = [lids(blinks, asked + i / 1000) for i in range(250)]
     assert closed[0] == 0.0 < closed[10]
     assert max(closed) > 0.99
     assert closed[236] == 0.0

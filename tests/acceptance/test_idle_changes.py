@@ -1,0 +1,96 @@
+"""Changes of idle animation: how often and how deep a character breathes, and how often it blinks."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.bml.names import BML
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
+
+FRAMES = 50
+"""Frames per second."""
+
+
+def document(*changes: str) -> str:
+    inside = "".join(f'<rr:idleChange id="c{number}" {change}/>' for number, change in enumerate(changes))
+    return f'<bml xmlns="{BML}" xmlns:rr="urn:reactive-realizer:1" id="b">{inside}</bml>'
+
+
+def breath(pilot: RealizerPilot, begin: float, end: float) -> np.ndarray:
+    """How far the shoulders are raised, rad, in frames between two times."""
+    bodies = pilot.bodies()[round(begin * FRAMES) : round(end * FRAMES)]
+    return np.array([-2.0 * body.rotation("r_sternoclavicular")[3] for body in bodies])
+
+
+def breaths(pilot: RealizerPilot, begin: float, end: float) -> int:
+    air = breath(pilot, begin, end)
+    return int(((air[1:-1] > air[:-2]) & (air[1:-1] >= air[2:])).sum())
+
+
+def blinks(pilot: RealizerPilot, begin: float, end: float) -> int:
+    frames = next(iter(pilot.frames.values()))[round(begin * FRAMES) : round(end * FRAMES)]
+    character = next(iter(pilot.realizer.characters.values()))
+    lid = character.humanoid.avatar.morphs.index("eyeBlinkLeft")
+    shut = np.array([frame.weights[lid] > 0.5 for frame in frames])
+    return int((shut[1:] & ~shut[:-1]).sum())
+
+
+async def test_breaths_become_as_frequent_and_as_deep_as_asked_for_and_stay_so() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        await pilot.advance(8)
+        pilot.perform(
+            document('parameter="BREATHING_RATE" value="60" end="1"', 'parameter="BREATHING_DEPTH" value="2"')
+        )
+        await pilot.advance(17)
+        assert breaths(pilot, 0, 8) <= 3
+        assert breaths(pilot, 10, 25) == pytest.approx(15, abs=2)
+        assert breath(pilot, 10, 25).max() > 1.5 * breath(pilot, 0, 8).max()
+        assert pilot.feedback.status("b") == "DONE"
+        assert pilot.feedback.time("b:c0:end") == pytest.approx(9.0)
+
+
+async def test_blinks_become_more_frequent_and_none_at_0() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document('parameter="BLINK_RATE" value="60" end="0.1"'))
+        await pilot.advance(20)
+        pilot.perform(document('parameter="BLINK_RATE" value="0" end="0.1"').replace('id="b"', 'id="d"'))
+        await pilot.advance(20)
+        assert 12 <= blinks(pilot, 0, 20) <= 28
+        assert blinks(pilot, 21, 40) == 0
+
+
+async def test_a_later_change_takes_over_and_a_replacement_of_everything_returns_to_usual() -> None:
+    deep, shallow = (
+        'parameter="BREATHING_DEPTH" value="{}" start="{}" end="{}"'.format(*each) for each in ((4, 0, 6), (0, 1, 2))
+    )
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(deep, shallow))
+        await pilot.advance(10)
+        assert breath(pilot, 3, 10).max() < 0.002
+        pilot.block("all", composition="REPLACE")
+        await pilot.advance(6)
+        assert breath(pilot, 11, 16).max() > 0.01
+
+
+async def test_a_character_without_idle_animation_says_so(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text('[character.alice]\navatar = "avatars/female.glb"\nidle = false\n')
+    async with open_pilot(SceneOptions(human, voice="text")) as pilot:
+        pilot.perform(document('parameter="BLINK_RATE" value="3"'))
+        await pilot.advance(1)
+        assert "no idle animation" in pilot.feedback.of("warningFeedback")[0].text
+
+
+@pytest.mark.parametrize(
+    ("change", "word"), [('parameter="SWEATING" value="1"', "SWEATING"), ('value="1"', "parameter")]
+)
+async def test_an_unknown_parameter_is_refused(change: str, word: str) -> None:
+    async with open_pilot() as pilot:
+        pilot.perform(document(change))
+        await pilot.advance(0.1)
+        assert word in pilot.feedback.of("warningFeedback")[0].text
