@@ -8,6 +8,7 @@ from reactive_realizer.embodiment.arm_anatomy import ArmAnatomy, ArmRotations
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import SIDES, TRUNK, other_side
 from reactive_realizer.embodiment.quaternion import (
+    IDENTITY,
     Quat,
     conjugate,
     difference,
@@ -15,6 +16,7 @@ from reactive_realizer.embodiment.quaternion import (
     multiply,
     rotate,
 )
+from reactive_realizer.embodiment.shoulder_rhythm import raised
 from reactive_realizer.embodiment.two_bone_ik import Arm, Leg
 from reactive_realizer.embodiment.vector import UP, Vec3, add, length, scale, subtract
 from reactive_realizer.engines.animation.procedural.tracks import Formulas, TrackPose, negated, parent_rotation
@@ -157,10 +159,21 @@ def _flat(shank: Quat) -> Quat:
 
 
 def natural_arm(side: str, turned: Mapping[str, Quat], skeleton: Skeleton) -> Mapping[str, Quat]:
-    """Return rotations of an arm whose forearm and hand keep within their limits; none if its hand is not turned."""
+    """Return rotations of an arm whose forearm and hand keep within their limits; none if its hand is not turned.
+
+    A shoulder girdle that is turned to its rest pose takes its share of the elevation of the arm (`shoulder_rhythm`).
+    """
     shoulder, elbow, wrist = (f"{side}_{joint}" for joint in Arm.JOINTS)
     if wrist not in turned:
         return {}
-    anatomy = ArmAnatomy.of(skeleton, side)
-    fitted = anatomy.fitted(ArmRotations(turned[shoulder], turned[elbow], turned[wrist]))
-    return {shoulder: fitted.shoulder, elbow: fitted.elbow, wrist: fitted.wrist}
+    arm, girdle = ArmRotations(turned[shoulder], turned[elbow], turned[wrist]), girdle_of(side)
+    carried: dict[str, Quat] = {}
+    if turned.get(girdle) == IDENTITY:
+        carried[girdle], arm = raised(arm, skeleton, side)
+    fitted = ArmAnatomy.of(skeleton, side).fitted(arm)
+    return {**carried, shoulder: fitted.shoulder, elbow: fitted.elbow, wrist: fitted.wrist}
+
+
+def girdle_of(side: str) -> str:
+    """Return the joint of the shoulder girdle of a side."""
+    return f"{side}_sternoclavicular"

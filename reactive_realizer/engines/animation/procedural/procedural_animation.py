@@ -15,14 +15,22 @@ from reactive_realizer.embodiment.joints import ROOT
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.engines.animation.expression.compiler import Compiled, compile_formulas
-from reactive_realizer.engines.animation.expression.syntax import Formula
+from reactive_realizer.engines.animation.expression.syntax import Constant, Formula
 from reactive_realizer.engines.animation.faults import BadKeys, NoMotion, NoneTurned, NotReachable
 from reactive_realizer.engines.animation.motion_unit import MotionPose
-from reactive_realizer.engines.animation.procedural.effector_track import EffectorTrack, carried_as_shown, natural_arm
+from reactive_realizer.engines.animation.procedural.effector_track import (
+    EffectorTrack,
+    carried_as_shown,
+    girdle_of,
+    natural_arm,
+)
 from reactive_realizer.engines.animation.procedural.tracks import Formulas, RootTrack, RotationTrack, Track, fold_spine
 from reactive_realizer.errors import Fault, RealizerError
 
 _log = logging.getLogger(__name__)
+
+
+_STILL = (Constant(0.0), Constant(0.0), Constant(0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,6 +219,13 @@ class ProceduralAnimation:
             known = ", ".join(sorted(self.joints)) or "none"
             raise RealizerError(NoneTurned(joints=tuple(sorted(joints)), animation=self.name, known=known))
         return replace(self, root=root, tracks=tracks)
+
+    def with_girdles(self) -> "ProceduralAnimation":
+        """Return the animation with the shoulder girdles of the hands that it places, unless it turns them itself."""
+        hands = (track for track in self.tracks if isinstance(track, EffectorTrack) and track.limb is Arm)
+        girdles = {girdle_of(each.side) for each in hands if each.local and f"{each.side}_wrist" in self.joints}
+        added = (RotationTrack(girdle, True, _STILL) for girdle in sorted(girdles - self.joints))
+        return replace(self, tracks=(*self.tracks, *added))
 
     def fitted_to(self, skeleton: Skeleton) -> "ProceduralAnimation":
         """Return the part of the animation that a figure can perform, from its root outward.

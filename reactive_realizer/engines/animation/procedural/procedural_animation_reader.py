@@ -233,7 +233,7 @@ def _made(
     animation = _read(path, changed, functions)
     if mirror:
         animation = animation.mirrored()
-    return (animation.restricted_to(joints) if joints else animation).fitted_to(skeleton)
+    return (animation.restricted_to(joints) if joints else animation.with_girdles()).fitted_to(skeleton)
 
 
 @lru_cache
