@@ -21,7 +21,8 @@ from reactive_realizer.bml.behaviors import (
     Speech,
 )
 from reactive_realizer.bml.extensions import FACES, MOTIONS
-from reactive_realizer.bml.vocabulary import PosePart
+from reactive_realizer.bml.key_poses import KeyPoses
+from reactive_realizer.bml.vocabulary import BodyGroup, PosePart
 
 
 class BodyPart(Enum):
@@ -48,6 +49,24 @@ _PARTS: dict[type[Behavior], frozenset[BodyPart]] = {
     **dict.fromkeys(MOTIONS, frozenset({BodyPart.HEAD, BodyPart.EYES, BodyPart.ARMS, BodyPart.TRUNK})),
 }
 
+_HEAD_GROUPS = (BodyGroup.HEAD, BodyGroup.HEAD_NECK)
+_LEANING_GROUPS = (BodyGroup.HEAD_CHEST, BodyGroup.HEAD_BACK)
+_ARM_GROUPS = (
+    BodyGroup.LEFT_ARM,
+    BodyGroup.RIGHT_ARM,
+    BodyGroup.LEFT_HAND,
+    BodyGroup.RIGHT_HAND,
+    BodyGroup.SHOULDERS,
+)
+
+_GROUPS: dict[BodyGroup, frozenset[BodyPart]] = {
+    **dict.fromkeys(_ARM_GROUPS, frozenset({BodyPart.ARMS})),
+    **dict.fromkeys(_HEAD_GROUPS, frozenset({BodyPart.HEAD})),
+    **dict.fromkeys(_LEANING_GROUPS, frozenset({BodyPart.HEAD, BodyPart.TRUNK})),
+    BodyGroup.TRUNK: frozenset({BodyPart.TRUNK}),
+    BodyGroup.WHOLEBODY: frozenset({BodyPart.HEAD, BodyPart.EYES, BodyPart.ARMS, BodyPart.TRUNK}),
+}
+
 _ARM_POSES = frozenset({PosePart.ARMS, PosePart.LEFT_ARM, PosePart.RIGHT_ARM, PosePart.WHOLEBODY})
 
 
@@ -58,4 +77,6 @@ def parts_of(behavior: Behavior) -> frozenset[BodyPart]:
         arms = {BodyPart.ARMS} if parts & _ARM_POSES else set()
         head = {BodyPart.HEAD} if PosePart.HEAD in parts else set()
         return frozenset({BodyPart.TRUNK, *arms, *head})
+    if isinstance(behavior, KeyPoses):
+        return _GROUPS[behavior.group]
     return _PARTS.get(type(behavior), frozenset())
