@@ -1,5 +1,6 @@
 """Properties of the default avatars on which the realizer and the page rely."""
 
+import io
 import json
 import struct
 from itertools import product
@@ -7,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 
 AVATARS = Path(__file__).resolve().parents[2] / "reactive_realizer" / "assets" / "avatars"
 PATHS = [AVATARS / "female.glb", AVATARS / "male.glb"]
@@ -96,8 +98,21 @@ def places(avatar: Gltf) -> dict[str, list[float]]:
     return found
 
 
-def test_a_file_is_smaller_than_3_megabytes(path: Path) -> None:
-    assert path.stat().st_size < 3_000_000
+def material(avatar: Gltf, name: str) -> Gltf:
+    found: Gltf = next(material for material in avatar["materials"] if material["name"] == name)
+    return found
+
+
+def picture(path: Path, avatar: Gltf, texture: int) -> Image.Image:
+    """The picture of a texture."""
+    view = avatar["bufferViews"][avatar["images"][avatar["textures"][texture]["source"]]["bufferView"]]
+    (size,) = struct.unpack_from("<I", path.read_bytes(), 12)
+    start = 20 + size + 8 + view["byteOffset"]
+    return Image.open(io.BytesIO(path.read_bytes()[start : start + view["byteLength"]]))
+
+
+def test_a_file_is_smaller_than_6_megabytes(path: Path) -> None:
+    assert path.stat().st_size < 6_000_000
 
 
 def test_the_skeleton_has_the_54_joints_of_mixamo_with_eyes(avatar: Gltf) -> None:
@@ -130,6 +145,22 @@ def test_the_face_has_the_52_blend_shapes_of_arkit_in_the_order_of_their_names(a
 def test_blend_shapes_move_only_the_face(avatar: Gltf) -> None:
     deformed = {mesh["name"] for mesh in avatar["meshes"] for part in mesh["primitives"] if "targets" in part}
     assert deformed == {"Face"}
+
+
+def test_skin_has_color_occlusion_and_roughness_of_2048_pixels(path: Path, avatar: Gltf) -> None:
+    for skin in (material(avatar, name) for name in ("Skin", "BodySkin")):
+        surface = skin["pbrMetallicRoughness"]
+        for texture in (surface["baseColorTexture"], surface["metallicRoughnessTexture"], skin["occlusionTexture"]):
+            assert picture(path, avatar, texture["index"]).size == (2048, 2048)
+        assert "normalTexture" in skin
+
+
+def test_hair_fades_out_at_its_ends(path: Path, avatar: Gltf) -> None:
+    hair = material(avatar, "Hair")
+    assert hair["alphaMode"] == "MASK"
+    alpha = picture(path, avatar, hair["pbrMetallicRoughness"]["baseColorTexture"]["index"]).getchannel("A")
+    faint = sum(alpha.histogram()[20:235]) / (alpha.width * alpha.height)
+    assert 0.05 < faint < 0.5
 
 
 def test_vrm_names_a_bone_for_every_joint(avatar: Gltf) -> None:

@@ -1,15 +1,18 @@
 import {
   Bone,
   Box3,
+  CustomBlending,
   type Material,
   Matrix4,
   Mesh,
   MeshLambertMaterial,
   MeshStandardMaterial,
   type Object3D,
+  OneFactor,
   Quaternion,
   Texture,
   Vector3,
+  ZeroFactor,
 } from "three";
 import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
@@ -27,8 +30,11 @@ const HEAD = /(^|[^a-z])head$/i;
 /** Names of the bones of the legs, with or without a prefix: `LeftUpLeg`, `mixamorig:LeftUpLeg`. */
 const LEGS = ["Left", "Right"].map((side) => ({ hip: `${side}UpLeg`, knee: `${side}Leg`, ankle: `${side}Foot` }));
 
-/** Names of the materials inside a mouth, where the shadow map is too coarse: the avatar's colors are dark enough. */
-const MOUTH = /mouth|teeth|tongue/i;
+/** Names of the materials inside a mouth and between lids, where the shadow map is too coarse; their colors have shade. */
+const INSIDE = /mouth|teeth|tongue|eyes?$/i;
+
+/** Alpha of the faintest hair that is drawn. */
+const FAINTEST = 0.08;
 
 /** One mesh's entry for a morph's weight: a face consists of several meshes that share their morphs. */
 interface MorphSlot {
@@ -199,10 +205,27 @@ function prepare(mesh: Mesh, quality: Quality): void {
   mesh.frustumCulled = false;
   const material = mesh.material;
   mesh.castShadow = true;
-  mesh.receiveShadow = ![material].flat().some(({ name }) => MOUTH.test(name));
+  mesh.receiveShadow = ![material].flat().some(({ name }) => INSIDE.test(name));
   if (!(material instanceof MeshStandardMaterial)) return;
   if (quality === "low") mesh.material = plain(material);
-  else if (material.alphaTest > 0) material.alphaToCoverage = true;
+  else if (material.alphaTest > 0) soften(material);
+}
+
+/** Has the alpha of a cut-out material, such as hair, fade out over the samples of a pixel instead of ending sharply. */
+function soften(material: MeshStandardMaterial): void {
+  material.alphaToCoverage = true;
+  // Alpha decides which samples are drawn, and is not stored: the canvas stays opaque.
+  material.blending = CustomBlending;
+  material.blendSrc = OneFactor;
+  material.blendDst = ZeroFactor;
+  material.blendSrcAlpha = ZeroFactor;
+  material.blendDstAlpha = OneFactor;
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <alphatest_fragment>",
+      `if (diffuseColor.a < ${FAINTEST}) discard;`,
+    );
+  };
 }
 
 /** The same material with the cheapest lit shading. */

@@ -6,10 +6,10 @@ figure faces +z and its left is +x. The same input gives the same bytes.
 The steps, each a module or two:
 
 1. body shape and rig: `makehuman`, `rig`, `body`
-2. head unwrap and paint: `head_map`, `hairline`, `face_masks`, `head_texture`, `textures`
-3. clothes: `cloth`, `top`, `neckline`, `pants`, `shoes`
-4. hair and eyes: `skull`, `ribbon`, `strands`, `hair`, `bob`, `crop`, `eyes`
-5. the file: `avatar`, `face`, `materials`, `primitive`, `glb`, `vrm`
+2. clothes: `cloth`, `top`, `lowered_arms`, `neckline`, `pants`, `shoes`
+3. hair, eyes and teeth: `skull`, `ribbon`, `strands`, `hair`, `bob`, `crop`, `eyes`, `teeth`
+4. skin: `texels`, `head_map`, `hairline`, `face_masks`, `occlusion`, `skin_paint`, `head_texture`, `body_texture`
+5. the file: `avatar`, `face`, `textures`, `materials`, `primitive`, `glb`, `vrm`
 
 The other modules are used by all of these: `numeric`, `mesh`, `surgery`, `images`. `characters` describes the avatars.
 """

@@ -5,16 +5,19 @@ from pathlib import Path
 import numpy as np
 
 from bake.body import Body
+from bake.body_texture import paint_body
 from bake.characters import CHARACTERS
 from bake.eyes import build_eyes
 from bake.face import face_parts
 from bake.glb import Glb, Json
 from bake.hair import build_hair
 from bake.head_map import HeadMap
+from bake.head_texture import paint_head
 from bake.makehuman import MakeHuman
-from bake.materials import make_materials
+from bake.materials import EXTENSIONS, make_materials
 from bake.mesh import Mesh, vertex_normals
 from bake.numeric import Array, Mask
+from bake.occlusion import exposure
 from bake.pants import build_pants
 from bake.primitive import Part, PrimitiveWriter
 from bake.rig import Rig
@@ -35,18 +38,22 @@ def bake(data: MakeHuman, name: str, path: Path) -> None:
     head = HeadMap(body)
     garments, covered = _dress(body)
     hair, glb = build_hair(body, head), Glb()
-    materials = make_materials(glb, body, head)
     skin = body.positions - body.normals * (_UNDER_CLOTHES * covered)[:, None]
+    uncovered = _body_part(body, head, skin, covered)
+    around = [Mesh(skin, body.weights, body.triangles, body.uvs), hair, *(part.mesh for part in garments)]
+    light = exposure(body.positions, body.normals, around)
+    painted = paint_body(body, uncovered.mesh.triangles, uncovered.mesh.uvs, light)
+    materials = make_materials(glb, body.character, paint_head(body, head, light), painted)
     writer = PrimitiveWriter(glb, body, materials)
     meshes = [_face(writer, body, [*face_parts(body, head, skin, covered)])]
     eyes = build_eyes(body)
-    parts = [_body_part(body, head, skin, covered), _part("Eyes", eyes), *garments, _part("Hair", hair)]
+    parts = [uncovered, _part("Eyes", eyes), *garments, _part("Hair", hair)]
     meshes += [{"name": part.name, "primitives": [writer.write(part)]} for part in parts]
     nodes, bound = _nodes(body.rig, meshes), glb.accessor(_inverse_bind_matrices(body.rig))
     index = {node["name"]: i for i, node in enumerate(nodes)}
     document = {
         "asset": {"version": "2.0", "generator": _GENERATOR, "copyright": COPYRIGHT},
-        "extensionsUsed": ["KHR_materials_clearcoat", "VRMC_vrm"],
+        "extensionsUsed": [*EXTENSIONS, "VRMC_vrm"],
         "extensions": {"VRMC_vrm": vrm_block(body, name, index)},
         "scene": 0,
         "scenes": [{"nodes": [index["Avatar"]]}],

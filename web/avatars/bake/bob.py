@@ -1,4 +1,4 @@
-"""A chin-long bob: three layers of strands that fall from a side parting, and a fringe swept to both sides."""
+"""A chin-long bob: four layers of strands that fall from a side parting, and a fringe swept to both sides."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -33,9 +33,10 @@ class _Layer:
 
 
 _LAYERS = (
-    _Layer(0.005, 9, 0.0240, 0.60, 3),
-    _Layer(0.0100, 10, 0.0140, 0.85, 4),
-    _Layer(0.0145, 11, 0.0115, 1.0, 5),
+    _Layer(0.0050, 9, 0.0250, 0.60, 3),
+    _Layer(0.0095, 11, 0.0150, 0.82, 4, 30),
+    _Layer(0.0130, 13, 0.0115, 0.96, 4, 34),
+    _Layer(0.0160, 8, 0.0060, 1.06, 3, 26),
 )
 
 
@@ -67,14 +68,14 @@ class _Bob:
     def variation(self, layer: _Layer, depth: int) -> tuple[float, float, float]:
         """Height above the scalp, curl of the tip, and length of one strand (m)."""
         height = self.strands.about(layer.height, 0.003)
-        curl = self.strands.varied(0.008, 0.008)
-        return height, curl, 0.006 * (self.strands.rng.random() - 0.5) - 0.004 * depth
+        curl = self.strands.varied(0.006, 0.014)
+        return height, curl, 0.012 * (self.strands.rng.random() - 0.5) - 0.0025 * depth
 
     def strand(self, layer: _Layer, path: Array) -> Mesh:
         """The ribbon along a path: narrow at the root, a pointed tip."""
         level = np.where(path[:, 1:2] < self.center[1], (path - self.center) * [1, 0.15, 1], path - self.center)
         s = np.linspace(0, 1, len(path))
-        width = layer.width * (0.40 + 0.80 * smoothstep(0, 0.35, s)) * (1 - 0.86 * smoothstep(0.74, 1, s))
+        width = layer.width * (0.40 + 0.80 * smoothstep(0, 0.35, s)) * (1 - 0.62 * smoothstep(0.84, 1, s))
         width = width * self.strands.varied(0.85, 0.3)
         shade = layer.shade * self.strands.varied(0.85, 0.30) * (0.80 + 0.25 * smoothstep(0.0, 0.4, s))
         return self.strands.strand(path, unit(level), width, layer.across, 0.42, shade)
@@ -97,7 +98,7 @@ class _Bob:
             lift = height * (0.5 + 0.5 * smoothstep(0, 0.45, t))
             swept = 0.004 * np.sin(t * np.pi) * (side < 0)
             points.append(self.center + d * (self.skull.radius(d) + lift + 0.0025 + swept))
-        return self._hang(points, self.tips - longer + 0.010 * (1 - f), curl * 0.6, 11)
+        return self._hang(points, self.tips - longer + 0.010 * (1 - f), curl * 0.6, 15)
 
     def falling_path(self, side: int, f: float, height: float, curl: float, longer: float) -> Array:
         """From the parting over the skull and down; f runs from the front (0) to the nape (1)."""
@@ -112,7 +113,7 @@ class _Bob:
             flow = np.array([side * np.cos(turn), 0, -np.sin(turn)])
             longer += 0.010 * back
         points = self._over_skull(unit(root), flow, height, 0.0 if f < 0.36 else -0.22)
-        return self._hang(points, self.tips - longer, curl, 10)
+        return self._hang(points, self.tips - longer, curl, 14)
 
     def _over_skull(self, root: Array, flow: Array, height: float, start: float) -> list[Array]:
         """Along a great circle, from an angle start (rad) at the root until the skull recedes below."""

@@ -196,7 +196,7 @@ MALE = Character(
         sleeve_part=0.62,
         cling=0.25,
         fall=0.30,
-        sleeve_radius=0.069,
+        sleeve_radius=0.066,
     ),
     pants=PantsDesign(color=(52, 66, 92), knee=0.083, ankle=0.073),
     shoes=ShoesDesign(upper=(74, 62, 56), sole=(236, 232, 224), lace=(222, 216, 206)),

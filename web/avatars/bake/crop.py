@@ -6,41 +6,36 @@ import numpy as np
 
 from bake.hairline import scalp
 from bake.mesh import Mesh
-from bake.numeric import Array, smoothstep, unit
+from bake.numeric import Array, fibonacci_sphere, smoothstep, unit
 from bake.strands import Strands
 
-_ROOTS = 960
-_POINTS = 6
+_ROOTS = 2400
+_POINTS = 5
 _CROWN = unit(np.array([0, 0.82, -0.57]))
 
 
 def crop(strands: Strands) -> Iterator[Mesh]:
     """All strands."""
     center = strands.skull.center
-    directions = _fibonacci_sphere(_ROOTS)
+    directions = fibonacci_sphere(_ROOTS)
     above_hairline = scalp(strands.body.character.hair, center)(center + directions * 0.1)
-    for root in directions[above_hairline > 1.5]:
-        yield _strand(strands, root)
+    for root, height in zip(directions, above_hairline, strict=True):
+        if height > 1.5:
+            yield _strand(strands, root, 0.55 + 0.45 * smoothstep(1.5, 12, height))
 
 
-def _fibonacci_sphere(count: int) -> Array:
-    """Directions (count, 3) spread evenly."""
-    i = np.arange(count) + 0.5
-    polar, turn = np.arccos(1 - 2 * i / count), np.pi * (1 + 5**0.5) * i
-    return np.stack([np.sin(polar) * np.cos(turn), np.cos(polar), np.sin(polar) * np.sin(turn)], 1)
-
-
-def _strand(strands: Strands, root: Array) -> Mesh:
+def _strand(strands: Strands, root: Array, share: Array) -> Mesh:
+    """A strand from a root on the scalp; the share of its full length and width is less near the hairline."""
     elevation, azimuth = np.degrees(np.arcsin(root[1])), np.degrees(np.arctan2(root[0], root[2]))
     top = smoothstep(22, 48, elevation)
     front = top * smoothstep(75, 20, abs(azimuth)) * smoothstep(62, 30, elevation)
-    length = (0.020 + 0.032 * top + 0.010 * front) * strands.varied(0.85, 0.3)
+    length = (0.013 + 0.034 * top + 0.010 * front) * share * strands.varied(0.85, 0.3)
     flow = _flow(root, azimuth, top, front) + strands.rng.normal(0, 0.16, 3)
-    lift = 0.0010 + 0.0090 * top + 0.010 * front
+    lift = 0.0008 + 0.0085 * top + 0.010 * front
     path = _grow(strands, root, flow, front, length, lift)
     s = np.linspace(0, 1, _POINTS)
-    width = (0.0052 + 0.0034 * top) * (0.7 + 0.5 * np.sin(s * np.pi * 0.8)) * (1 - 0.80 * smoothstep(0.6, 1, s))
-    width = width * strands.varied(0.85, 0.3)
+    width = (0.0042 + 0.0022 * top) * (0.7 + 0.5 * np.sin(s * np.pi * 0.8)) * (1 - 0.80 * smoothstep(0.6, 1, s))
+    width = width * share * strands.varied(0.85, 0.3)
     shade = strands.varied(0.72, 0.45) * (0.62 + 0.45 * s)
     return strands.strand(path, unit(path - strands.skull.center), width, 3, 0.22, shade)
 

@@ -13,7 +13,7 @@ _RINGS, _SECTORS = 22, 28
 _IRIS, _PUPIL = 0.50, 0.205
 """Radii as parts of the texture's half width."""
 
-_WHITE, _VEIN, _COLLARETTE, _BLACK = [238, 233, 228], [205, 120, 110], [150, 104, 56], [8, 7, 8]
+_WHITE, _VEIN, _COLLARETTE, _BLACK = [228, 217, 207], [205, 110, 98], [150, 104, 56], [8, 7, 8]
 
 
 def build_eyes(body: Body) -> Mesh:
@@ -64,8 +64,8 @@ def _sclera(x: Array, y: Array, radius: Array) -> Array:
     color = np.ones((*x.shape, 3)) * _WHITE
     noise = value_noise(np.stack([x * 9, y * 9, 0 * x], -1))
     vein = np.exp(-((noise / 0.05) ** 2)) * smoothstep(0.55, 0.95, radius)
-    color = color * (1 - 0.16 * vein[..., None]) + np.array(_VEIN) * 0.16 * vein[..., None]
-    in_shade_of_lids = 0.30 * smoothstep(0.52, 1.0, radius), 0.14 * smoothstep(0.1, -0.8, y)
+    color = color * (1 - 0.22 * vein[..., None]) + np.array(_VEIN) * 0.22 * vein[..., None]
+    in_shade_of_lids = 0.30 * smoothstep(0.52, 1.0, radius), 0.30 * smoothstep(0.1, -0.75, y)
     return color * (1 - in_shade_of_lids[0] - in_shade_of_lids[1])[..., None]
 
 

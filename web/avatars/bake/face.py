@@ -9,18 +9,18 @@ from bake.body import Body
 from bake.hairline import scalp
 from bake.head_map import HeadMap
 from bake.mesh import Mesh, no_uvs, vertex_normals
-from bake.numeric import Array, Color, Indices, Mask, linear, smoothstep
+from bake.numeric import Array, Color, Indices, Mask, linear, smoothstep, unit
 from bake.primitive import Part
 from bake.rig import SIDES
+from bake.teeth import build_teeth, jaw_moves
 
 _GUMS: Color = (140, 62, 60)
 _TONGUE: Color = (172, 78, 78)
-_WHITE: Color = (255, 255, 255)
 _LASH_BINS = 9
 
 
 def face_parts(body: Body, head: HeadMap, positions: Array, covered: Mask) -> Iterator[Part]:
-    """The parts; all of them use the vertices of the base mesh.
+    """The parts; all of them but the teeth use the vertices of the base mesh.
 
     Args:
         body: with the face.
@@ -35,13 +35,12 @@ def face_parts(body: Body, head: HeadMap, positions: Array, covered: Mask) -> It
     seen = _seen_skin(body, head, covered)
     yield part("Head", "Skin", head.triangles[seen], head.uvs[seen], _lip_shade(body, head), body.normals)
     inside, no_texture = head.mouth_triangles, no_uvs(head.mouth_triangles)
-    yield part("Mouth", "Mouth", inside, no_texture, _fade(body, head, _GUMS), body.normals)
-    for row, name in enumerate(("upper-teeth", "lower-teeth")):
-        triangles, _ = body.triangles_of("helper-" + name)
-        uvs, normals = _teeth_uvs(body, triangles, row)[triangles], vertex_normals(body.positions, triangles)
-        yield part(name, "Teeth", triangles, uvs, _fade(body, head, _WHITE), normals)
+    yield part("Mouth", "Mouth", inside, no_texture, _fade(body, head, _GUMS), _lit_from_front(body.normals))
+    for row, name in zip(build_teeth(body), ("upper-teeth", "lower-teeth"), strict=True):
+        normals = vertex_normals(row.positions, row.triangles)
+        yield Part(name, row, normals, "Teeth", jaw_moves(body, "helper-" + name, row.positions))
     triangles, _ = body.triangles_of("helper-tongue")
-    normals = vertex_normals(body.positions, triangles)
+    normals = _lit_from_front(vertex_normals(body.positions, triangles))
     yield part("Tongue", "Tongue", triangles, no_uvs(triangles), _fade(body, head, _TONGUE), normals)
     triangles, _ = body.triangles_of("helper-l-eyelashes-2", "helper-r-eyelashes-2")
     normals = vertex_normals(body.positions, triangles)
@@ -63,6 +62,11 @@ def _fade(body: Body, head: HeadMap, color: Color) -> Array:
     return linear(color)[None] * np.clip(0.10 + 0.90 * near, 0, 1)[:, None]
 
 
+def _lit_from_front(normals: Array) -> Array:
+    """Normals (v, 3) turned forward: light comes through the lips, and never through the back of the head."""
+    return unit(normals + np.array([0, 0, 0.9]))
+
+
 def _lip_shade(body: Body, head: HeadMap) -> Array:
     """White (v, 3) with a warm shade where the lips turn inside."""
     distance = cKDTree(body.positions[head.lip_seam]).query(body.positions)[0]
@@ -72,15 +76,6 @@ def _lip_shade(body: Body, head: HeadMap) -> Array:
     shade[~body.among(np.unique(head.triangles))] = 1
     shade[:, 1:] **= 1.15
     return shade
-
-
-def _teeth_uvs(body: Body, triangles: Indices, row: int) -> Array:
-    """Texture coordinates (v, 2) around the dental arch; the upper row (0) has the upper half of the picture."""
-    x, y, z = body.positions.T
-    teeth = body.positions[np.unique(triangles)]
-    angle = np.arctan2(x, z - (teeth[:, 2].min() - 0.004)) / np.arctan2(np.abs(teeth[:, 0]).max(), 0.010)
-    down = (teeth[:, 1].max() - y) / np.ptp(teeth[:, 1])
-    return np.stack([0.5 + 0.5 * np.clip(angle, -1, 1), row * 0.5 + 0.01 + 0.48 * np.clip(down, 0, 1)], 1)
 
 
 def _lash_uvs(body: Body) -> Array:

@@ -7,9 +7,13 @@ from scipy.ndimage import gaussian_filter
 from scipy.spatial import cKDTree
 
 from bake.body import Body
+from bake.characters import HairStyle
 from bake.hairline import scalp
 from bake.head_map import HeadMap
 from bake.numeric import Array, Indices, smoothstep, value_noise
+
+_STUBBLE_BELOW = {HairStyle.BOB: -6.0, HairStyle.CROP: -13.0}
+"""Where the transition from skin to hair begins, degrees above the hairline."""
 
 
 class FaceMasks:
@@ -78,16 +82,16 @@ class FaceMasks:
         x, who = self.points[..., 0] * side, self._who
         along = (x - (self.eye_x - 0.0195)) / 0.050
         t = np.clip(along, 0, 1)
-        middle = self.eye[1] + 0.0188 + who.brow_lift + 0.0098 * np.sin(t * 2.1) - 0.0045 * t**3
+        middle = self.eye[1] + 0.0206 + who.brow_lift + 0.0062 * np.sin(t * 2.1) - 0.0056 * t**3
         height = who.brow_height * (1 - 0.70 * t**1.5) * np.clip(0.55 + 2.5 * t, 0, 1)
         across = (self.y - middle) / height
         q = (x - self.eye_x - (0.25 + 1.5 * t) * (self.y - middle)) / 0.0011
         strokes = np.sin(q * 2 * np.pi + 2.2 * value_noise(np.stack([q * 0.45, across * 0.6, 0 * q], -1)))
         brow = (
             np.exp(-(np.abs(across) ** 2.6) * 1.1)
-            * np.clip((along + 0.02) * 9, 0, 1)
+            * smoothstep(-0.03, 0.22, along)
             * np.clip((1.05 - along) * 7, 0, 1)
-            * (0.74 + 0.26 * strokes)
+            * (0.66 + 0.34 * strokes)
         )
         return brow * (self.z > self.eye[2] - 0.04) * (x > 0)
 
@@ -110,7 +114,8 @@ class FaceMasks:
     def hairline(self) -> Array:
         """A soft, stubbly transition, so that the hair does not look glued on."""
         wobble = 2.2 * value_noise(self.points * 260) + 1.2 * value_noise(self.points * 700)
-        return smoothstep(-3.0, 3.5, self.above_hairline + 0.7 * wobble) * (1 - smoothstep(0.2, 0.6, self.ears))
+        start = _STUBBLE_BELOW[self._who.hair]
+        return smoothstep(start, 3.5, self.above_hairline + 0.9 * wobble) * (1 - smoothstep(0.2, 0.6, self.ears))
 
 
 def _close_mouth(lips: Array) -> Array:

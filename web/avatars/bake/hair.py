@@ -53,5 +53,5 @@ def _shell(strands: Strands, style: HairStyle) -> Mesh:
 
 
 def _shell_uvs(elevation: Array, azimuth: Array) -> Array:
-    u = (0.5 + 0.42 * np.sin(np.deg2rad(azimuth) * 14)) / 4
+    u = (0.5 + 0.25 * np.sin(np.deg2rad(azimuth) * 14)) / 4
     return np.stack([u, np.clip(0.1 + (90 - elevation) / 400, 0, 0.5)], -1).reshape(-1, 2)

@@ -1,18 +1,16 @@
 """The head's own texture coordinates, and the position of every texel: the face is painted in three dimensions."""
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, map_coordinates
+from scipy.ndimage import map_coordinates
 
 from bake.body import Body
 from bake.mesh import neighbors
 from bake.numeric import Array, Indices, Mask
+from bake.texels import TexelMap
 
-SIZE = 1024
+SIZE = 2048
 MOVES = 1e-5
 """A vertex that a face unit moves by more than this (m) belongs to the head."""
-
-_OVERLAP = 0.06
-"""Margin by which a triangle is painted beyond its edges, in barycentric coordinates; it avoids seams."""
 
 
 class HeadMap:
@@ -40,13 +38,22 @@ class HeadMap:
         self.mouth_triangles = body.triangles[self.is_head & inside_mouth]
         heights = body.positions[np.unique(self.triangles)][:, 1]
         self._bottom, self._top = heights.min() - 0.004, heights.max() + 0.004
-        self.uvs = self._unwrap(body.positions[self.triangles])
-        self._rasterize(body)
+        corners = body.positions[self.triangles]
+        self.uvs = self._unwrap(corners)
+        # of two sheets over one texel, as behind an ear, the outer one is seen
+        outward = np.hypot(corners[..., 0], corners[..., 2] - self.center[2])
+        self._texels = TexelMap(self.uvs, SIZE, outward)
+        self.points, self.cavity = self._texels.carry(corners), self.carry(_curvature(body))
+        self._body_uv = self._texels.carry(self.body_uvs)
 
     @property
     def lip_seam(self) -> Indices:
         """The vertices where the lips turn inside."""
         return np.intersect1d(np.unique(self.mouth_triangles), np.unique(self.triangles))
+
+    def carry(self, values: Array) -> Array:
+        """Values (v,) of the vertices of the body as a picture (size, size) in this unwrap."""
+        return self._texels.carry(values[self.triangles])
 
     def sample(self, picture: Array) -> Array:
         """A picture (n, n) in the original texture coordinates, carried over to this unwrap."""
@@ -60,31 +67,6 @@ class HeadMap:
         azimuth = np.where(across_the_back, azimuth + 2, azimuth)
         height = (self._top - corners[..., 1]) / (self._top - self._bottom)
         return np.stack([0.5 + azimuth / (1 + np.abs(azimuth)), height], -1)
-
-    def _rasterize(self, body: Body) -> None:
-        self.points = np.full((SIZE, SIZE, 3), np.nan)
-        self.cavity = np.zeros((SIZE, SIZE))
-        self._body_uv = np.zeros((SIZE, SIZE, 2))
-        radius = np.full((SIZE, SIZE), -1.0)
-        curvature = _curvature(body)
-        for triangle, uv, body_uv in zip(self.triangles, self.uvs, self.body_uvs, strict=True):
-            xs, ys, barycentric = _texels(uv * SIZE - 0.5)
-            points = barycentric @ body.positions[triangle]
-            r = np.hypot(points[:, 0], points[:, 2] - self.center[2])
-            # of two sheets over one texel, as behind an ear, the outer one is seen
-            outer = r > radius[ys, xs]
-            xs, ys, barycentric = xs[outer], ys[outer], barycentric[outer]
-            radius[ys, xs] = r[outer]
-            self.points[ys, xs] = points[outer]
-            self._body_uv[ys, xs] = barycentric @ body_uv
-            self.cavity[ys, xs] = barycentric @ curvature[triangle]
-        self._fill_gaps()
-
-    def _fill_gaps(self) -> None:
-        """Give the texels that no triangle covers what the nearest covered one has."""
-        uncovered = np.isnan(self.points[..., 0])
-        y, x = distance_transform_edt(uncovered, return_distances=False, return_indices=True)
-        self.points, self.cavity, self._body_uv = self.points[y, x], self.cavity[y, x], self._body_uv[y, x]
 
 
 def _head_triangles(body: Body) -> Mask:
@@ -102,17 +84,3 @@ def _curvature(body: Body) -> Array:
     offset = body.positions - links @ body.positions / degree[:, None]
     curvature = np.clip(np.einsum("ij,ij->i", offset, body.normals) / 0.0012, -1.5, 1.5)
     return (curvature + links @ curvature / degree) / 2
-
-
-def _texels(corners: Array) -> tuple[Indices, Indices, Array]:
-    """The texels under a triangle with corners (3, 2) in texels: columns, rows, barycentric coordinates (n, 3)."""
-    low, high = np.floor(corners.min(0) - 1).astype(int), np.ceil(corners.max(0) + 1).astype(int)
-    xs, ys = (grid.ravel() for grid in np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(low, high, strict=True))))
-    a, c = corners[1] - corners[0], corners[2] - corners[0]
-    area = a[0] * c[1] - a[1] * c[0]
-    if abs(area) < 1e-9:
-        return xs[:0], ys[:0], np.zeros((0, 3))
-    dx, dy = xs - corners[0, 0], ys - corners[0, 1]
-    l1, l2 = (dx * c[1] - dy * c[0]) / area, (a[0] * dy - a[1] * dx) / area
-    covered = (l1 > -_OVERLAP) & (l2 > -_OVERLAP) & (l1 + l2 < 1 + _OVERLAP) & (ys >= 0) & (ys < SIZE)
-    return xs[covered] % SIZE, ys[covered], np.stack([1 - l1 - l2, l1, l2], 1)[covered]

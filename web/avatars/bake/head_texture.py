@@ -1,6 +1,4 @@
-"""The skin of the head: color, roughness and fine relief, painted in three dimensions."""
-
-from dataclasses import dataclass
+"""The skin of the head: color, occlusion and roughness, and fine relief, painted in three dimensions."""
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
@@ -8,47 +6,24 @@ from scipy.ndimage import gaussian_filter
 from bake.body import Body
 from bake.characters import Character
 from bake.face_masks import FaceMasks
-from bake.head_map import HeadMap
-from bake.images import jpeg, normal_map, picture, shrunk
-from bake.numeric import Array, Color, value_noise
+from bake.head_map import SIZE, HeadMap
+from bake.images import jpeg, normal_map, orm, picture, shrunk
+from bake.numeric import Array, value_noise
+from bake.skin_paint import Paint, SkinTextures, mottled_skin
 
 
-@dataclass(frozen=True, slots=True)
-class HeadTextures:
-    """JPEG files: color, roughness (green channel), normals."""
-
-    color: bytes
-    roughness: bytes
-    normal: bytes
-
-
-class _Paint:
-    """Colors (n, n, 3), 0..255, that are laid over each other."""
-
-    def __init__(self, ground: Array) -> None:
-        self.pixels = ground
-
-    def lay(self, mask: Array, color: Color | Array, amount: float) -> None:
-        """Cover the pixels with a color, by the mask and the amount."""
-        cover = np.clip(mask * amount, 0, 1)[..., None]
-        self.pixels = self.pixels * (1 - cover) + np.asarray(color, float) * cover
-
-
-def paint_head(body: Body, head: HeadMap) -> HeadTextures:
-    """Paint one head."""
+def paint_head(body: Body, head: HeadMap, exposure: Array) -> SkinTextures:
+    """Paint one head, whose vertices (v,) are exposed to light by 0..1."""
     masks = FaceMasks(body, head)
-    color = _color(body.character, masks, head.cavity)
-    roughness = _roughness(masks)
-    full, none = np.full(roughness.shape, 255.0), np.zeros(roughness.shape)
-    return HeadTextures(
-        color=jpeg(picture(color), 88),
-        roughness=jpeg(shrunk(np.stack([full, roughness * 255, none], -1), 256), 80),
-        normal=jpeg(shrunk(_relief(masks), 512), 82),
+    return SkinTextures(
+        color=jpeg(picture(_color(body.character, masks, head.cavity)), 87),
+        surface=orm(head.carry(exposure), _roughness(masks), SIZE),
+        normal=jpeg(shrunk(_relief(masks), 1024), 82),
     )
 
 
 def _color(who: Character, masks: FaceMasks, cavity: Array) -> Array:
-    paint = _Paint(_mottled_skin(who, masks.points))
+    paint = Paint(mottled_skin(who, masks.points))
     _flush(paint, who, masks)
     # cavity: warm creases, lit ridges
     paint.pixels *= (1 + 0.05 * np.clip(cavity, -1.4, 0.8))[..., None] ** np.array([0.8, 1.15, 1.25])
@@ -63,16 +38,7 @@ def _color(who: Character, masks: FaceMasks, cavity: Array) -> Array:
     return paint.pixels
 
 
-def _mottled_skin(who: Character, points: Array) -> Array:
-    skin = np.ones(points.shape) * who.skin
-    coarse, middle, fine = (value_noise(points * frequency + 31.7) for frequency in (55, 170, 520))
-    skin *= (1 + 0.020 * coarse + 0.018 * middle + 0.012 * fine)[..., None]
-    skin[..., 0] *= 1 + 0.018 * middle
-    skin[..., 1] *= 1 - 0.012 * coarse
-    return skin
-
-
-def _flush(paint: _Paint, who: Character, masks: FaceMasks) -> None:
+def _flush(paint: Paint, who: Character, masks: FaceMasks) -> None:
     """Cheeks, tip of the nose, chin and ears are redder, lids and what is below the eyes darker."""
     amount, eye, eye_x, skin = who.flush_amount, masks.eye, masks.eye_x, np.array(who.skin)
     paint.lay(masks.spot(eye_x + 0.014, eye[1] - 0.036, 0.020, 0.015), who.flush, amount)

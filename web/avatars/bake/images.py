@@ -18,11 +18,17 @@ def shrunk(pixels: Array, size: int) -> Image.Image:
     return picture(pixels).resize((size, size), Image.Resampling.LANCZOS)
 
 
-def jpeg(image: Image.Image, quality: int) -> bytes:
-    """As JPEG with halved chroma."""
+def jpeg(image: Image.Image, quality: int, *, subsampling: int = 2) -> bytes:
+    """As JPEG, by default with halved chroma."""
     buffer = io.BytesIO()
-    image.save(buffer, "JPEG", quality=quality, subsampling=2)
+    image.save(buffer, "JPEG", quality=quality, subsampling=subsampling)
     return buffer.getvalue()
+
+
+def orm(exposure: Array, roughness: Array, size: int) -> bytes:
+    """Occlusion, roughness and no metal in the channels in which glTF looks for them, from pictures (n, n), 0..1."""
+    pixels = np.stack([exposure, roughness, 0 * roughness], -1) * 255
+    return jpeg(shrunk(pixels, size), 80, subsampling=0)
 
 
 def png(image: Image.Image) -> bytes:

@@ -2,32 +2,30 @@
 
 from typing import Any
 
-from bake.body import Body
+from bake.characters import Character
 from bake.eyes import paint_eye
 from bake.glb import CLAMP, Glb, Json
-from bake.head_map import HeadMap
-from bake.head_texture import paint_head
-from bake.textures import body_color, fabric_normal, hair, lashes, teeth
+from bake.skin_paint import SkinTextures
+from bake.textures import fabric_normal, hair, lashes
+
+EXTENSIONS = ("KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_specular")
+"""Those of glTF that the materials use."""
 
 
-def make_materials(glb: Glb, body: Body, head: HeadMap) -> dict[str, Json]:
-    """Paint all textures, store them, and describe the materials; the order is that of the file."""
-    painted = paint_head(body, head)
-    skin = glb.texture(painted.color)
-    skin_roughness, skin_normal = glb.texture(painted.roughness), glb.texture(painted.normal)
-    body_skin = glb.texture(body_color(body))
-    eye, eye_normal = (glb.texture(picture) for picture in paint_eye(body.character.iris))
+def make_materials(glb: Glb, who: Character, head_skin: SkinTextures, body_skin: SkinTextures) -> dict[str, Json]:
+    """Paint the other textures, store all, and describe the materials; the order is that of the file."""
+    eye, eye_normal = (glb.texture(picture) for picture in paint_eye(who.iris))
     strands, strands_normal = (glb.texture(picture, CLAMP) for picture in hair())
     fabric = glb.texture(fabric_normal())
-    lash, tooth = glb.texture(lashes(), CLAMP), glb.texture(teeth())
-    clear_coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.03}}
+    lash = glb.texture(lashes(), CLAMP)
+    clear_coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.11}}
     materials = [
-        _material("Skin", 1.0, skin, skin_roughness, normalTexture=skin_normal | {"scale": 0.6}),
-        _material("Mouth", 0.75),
-        _material("Teeth", 0.25, tooth, doubleSided=True),
-        _material("Tongue", 0.8),
+        _skin(glb, "Skin", head_skin),
+        _material("Mouth", 0.75, **_specular(0.0)),
+        _material("Teeth", 0.3, doubleSided=True, **_specular(0.5)),
+        _material("Tongue", 0.55, **_specular(0.25)),
         _material("Lashes", 0.9, lash, alphaMode="BLEND", doubleSided=True),
-        _material("BodySkin", 0.58, body_skin),
+        _skin(glb, "BodySkin", body_skin),
         _material("Eyes", 0.32, eye, normalTexture=eye_normal | {"scale": 0.8}, extensions=clear_coat),
         _material("Top", 0.88, normalTexture=fabric | {"scale": 0.8}, doubleSided=True),
         _material("Pants", 0.85, normalTexture=fabric | {"scale": 0.9}, doubleSided=True),
@@ -38,11 +36,20 @@ def make_materials(glb: Glb, body: Body, head: HeadMap) -> dict[str, Json]:
             strands,
             normalTexture=strands_normal | {"scale": 0.7},
             alphaMode="MASK",
-            alphaCutoff=0.45,
+            alphaCutoff=0.40,
             doubleSided=True,
+            extensions={
+                "KHR_materials_anisotropy": {"anisotropyStrength": 0.6},
+                "KHR_materials_specular": {"specularFactor": 0.6, "specularColorFactor": [1.0, 0.86, 0.72]},
+            },
         ),
     ]
     return {material["name"]: material for material in materials}
+
+
+def _skin(glb: Glb, name: str, painted: SkinTextures) -> Json:
+    color, surface, normal = (glb.texture(each) for each in (painted.color, painted.surface, painted.normal))
+    return _material(name, 1.0, color, surface, normalTexture=normal | {"scale": 0.6}, occlusionTexture=surface)
 
 
 def _material(
@@ -55,3 +62,8 @@ def _material(
     if roughness_map is not None:
         surface["metallicRoughnessTexture"] = roughness_map
     return {"name": name, "pbrMetallicRoughness": surface, **more}
+
+
+def _specular(factor: float) -> Json:
+    """Weaker reflections: of the room around, little is seen in a mouth."""
+    return {"extensions": {"KHR_materials_specular": {"specularFactor": factor}}}

@@ -10,6 +10,9 @@ from bake.numeric import Array, Field, smoothstep, unit
 from bake.surgery import Rim, RimRow, relax
 
 _COLLAR_HEIGHT = {Neckline.CREW: 0.016, Neckline.SCOOP: 0.008}
+_ROUNDING = 0.03
+"""Where the two cuts of a scoop meet, m."""
+
 _REACH = 0.16
 """Depth below the neck joint to which the neckline cuts, m; the cutting shapes extend further."""
 
@@ -28,20 +31,26 @@ def neck_field(body: Body, style: Neckline) -> Field:
 def _scoop(body: Body) -> Field:
     """An ellipsoid in front of the neck is cut out."""
     neck = body.places["Neck"]
-    center, radii = np.array([0, neck[1] + 0.012, neck[2] + 0.040]), np.array([0.088, 0.082, 0.098])
+    center, radii = np.array([0, neck[1] + 0.012, neck[2] + 0.052]), np.array([0.090, 0.082, 0.086])
 
     def field(points: Array) -> Array:
         outside = (np.linalg.norm((points - center) / radii, axis=-1) - 1) * 0.085
-        return np.minimum(outside, neck[1] + 0.035 - points[..., 1])
+        return _smooth_minimum(outside, neck[1] + 0.022 - points[..., 1])
 
     return field
+
+
+def _smooth_minimum(a: Array, b: Array) -> Array:
+    """The minimum with a rounded corner."""
+    share = np.clip(0.5 + 0.5 * (b - a) / _ROUNDING, 0, 1)
+    return b + (a - b) * share - _ROUNDING * share * (1 - share)
 
 
 def _crew(body: Body) -> Field:
     """A plane across the neck, lower in front."""
     neck = body.places["Neck"]
     axis = unit(unit(body.places["Head"] - neck) + np.array([0, 0, 0.35]))
-    return lambda points: -((points - neck) @ axis) + 0.006
+    return lambda points: -((points - neck) @ axis) - 0.005
 
 
 def smooth_neck(cloth: Mesh, neck: Field, body: Body, skin: Surface) -> None:

@@ -38,6 +38,13 @@ def direction(elevation: Array | float, azimuth: Array | float) -> Array:
     return np.stack([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)], -1)
 
 
+def fibonacci_sphere(count: int) -> Array:
+    """Directions (count, 3) spread evenly."""
+    i = np.arange(count) + 0.5
+    polar, turn = np.arccos(1 - 2 * i / count), np.pi * (1 + 5**0.5) * i
+    return np.stack([np.sin(polar) * np.cos(turn), np.cos(polar), np.sin(polar) * np.sin(turn)], 1)
+
+
 def inverse_distance_weights(distances: Array, softening: float) -> Array:
     """Weights (n, k) that sum to 1 a row, for the k nearest neighbors at these distances."""
     weights = 1 / (distances + softening) ** 2
@@ -55,14 +62,15 @@ def value_noise(points: Array) -> Array:
     cell = np.floor(points).astype(np.int64)
     f = points - cell
     f = f * f * (3 - 2 * f)
+    shares = [(1 - f[..., axis], f[..., axis]) for axis in range(3)]
     total = np.zeros(points.shape[:-1])
     for corner in range(8):
-        offset = np.array([corner & 1, corner >> 1 & 1, corner >> 2])
-        total = total + _hash(cell + offset) * np.prod(np.where(offset, f, 1 - f), -1)
+        x, y, z = corner & 1, corner >> 1 & 1, corner >> 2
+        total = total + _hash(cell + np.array([x, y, z])) * (shares[0][x] * shares[1][y] * shares[2][z])
     return total * 2 - 1
 
 
 def _hash(cells: Indices) -> Array:
-    x = (cells[..., 0] * 374761393 + cells[..., 1] * 668265263 + cells[..., 2] * 2147483647).astype(np.int64)
+    x = cells[..., 0] * 374761393 + cells[..., 1] * 668265263 + cells[..., 2] * 2147483647
     x = (x ^ (x >> 13)) * 1274126177
     return ((x ^ (x >> 16)) & 0xFFFF) / 65535.0

@@ -1,5 +1,6 @@
 """From meshes to glTF primitives: welded vertices, four bones each, the ARKit blend shapes."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +11,8 @@ from bake.mesh import Mesh, vertex_normals
 from bake.numeric import Array, Indices, unit
 
 _BONES = 4
-_STILL, _SMALLEST_MOVE = 2e-5, 4e-5
-"""m: a blend shape that moves nothing further is left empty; vertices that it moves less are left out."""
+_SMALLEST_MOVE = 4e-5
+"""Vertices that a blend shape moves less are left out, m."""
 
 _SHADED = (
     # blend shapes that bend the skin so much that its shading has to follow
@@ -39,12 +40,14 @@ class Part:
         mesh: in the T-pose.
         normals: (v, 3) of its vertices.
         material: name.
+        moves: (v, 3) m by face unit; None where its vertices are those of the base mesh.
     """
 
     name: str
     mesh: Mesh
     normals: Array
     material: str
+    moves: Mapping[str, Array] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,15 +71,16 @@ class PrimitiveWriter:
 
     def __init__(self, glb: Glb, body: Body, materials: dict[str, Json]) -> None:
         self._glb, self._body, self._materials = glb, body, materials
+        self._brightest: dict[str, Array] = {}
 
     def write(self, part: Part) -> Json:
-        """A primitive without blend shapes. The material of a colored mesh gets its brightest color as a factor."""
+        """A primitive without blend shapes. The brightest color of its first mesh is a factor of a material."""
         return self._write(part, _weld(part.mesh))
 
     def write_face(self, part: Part, *, shaded: bool) -> Json:
-        """A primitive with all blend shapes; its vertices are those of the base mesh, and shaded turns normals too."""
+        """A primitive with all blend shapes; shaded turns normals too, if its vertices are those of the base mesh."""
         welded = _weld(part.mesh)
-        return self._write(part, welded) | {"targets": self._targets(welded.source, shaded)}
+        return self._write(part, welded) | {"targets": self._targets(part, welded.source, shaded)}
 
     def _write(self, part: Part, welded: _Welded) -> Json:
         mesh, source = part.mesh, welded.source
@@ -92,7 +96,7 @@ class PrimitiveWriter:
             "WEIGHTS_0": self._glb.accessor(shares.astype("u1"), VERTICES, normalized=True),
         }
         if mesh.colors is not None:
-            attributes["COLOR_0"] = self._colors(mesh.colors, source, self._materials[part.material])
+            attributes["COLOR_0"] = self._colors(mesh.colors, source, part.material)
         indices = self._glb.accessor(welded.indices.astype("u2"), INDICES)
         return {"attributes": attributes, "indices": indices, "material": list(self._materials).index(part.material)}
 
@@ -101,18 +105,19 @@ class PrimitiveWriter:
             return self._glb.accessor(np.round(uvs * 65535).astype("u2"), VERTICES, normalized=True)
         return self._glb.accessor(uvs, VERTICES)
 
-    def _colors(self, colors: Array, source: Indices, material: Json) -> int:
-        brightest = np.maximum(colors.max(0), 1e-4)
-        material["pbrMetallicRoughness"]["baseColorFactor"] = [*brightest.tolist(), 1.0]
-        relative = np.c_[np.round(colors[source] / brightest * 255), np.full(len(source), 255)]
+    def _colors(self, colors: Array, source: Indices, material: str) -> int:
+        brightest = self._brightest.setdefault(material, np.maximum(colors.max(0), 1e-4))
+        factor = [*brightest.tolist(), 1.0]
+        self._materials[material]["pbrMetallicRoughness"]["baseColorFactor"] = factor
+        relative = np.c_[np.round(np.minimum(colors[source] / brightest, 1) * 255), np.full(len(source), 255)]
         return self._glb.accessor(relative.astype("u1"), VERTICES, normalized=True)
 
-    def _targets(self, source: Indices, shaded: bool) -> list[Json]:
+    def _targets(self, part: Part, source: Indices, shaded: bool) -> list[Json]:
         nothing: int | None = None
         targets = []
         for name in self._body.face_units:
-            moves = self._body.moved(name)[source]
-            moving = np.abs(moves).max() >= _STILL
+            moves = (self._body.moved(name) if part.moves is None else part.moves[name])[source]
+            moving = np.abs(moves).max() > _SMALLEST_MOVE
             position = self._glb.sparse(moves, _SMALLEST_MOVE) if moving else None
             turns = self._turns(name)[source] if moving and shaded and name.startswith(_SHADED) else None
             normal = None if turns is None or not turns.any() else self._glb.sparse(turns, 0.0)

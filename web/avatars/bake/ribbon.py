@@ -5,8 +5,8 @@ import numpy as np
 from bake.mesh import Mesh, face_normals, grid_triangles
 from bake.numeric import Array, unit
 
-LOCKS = 4
-"""Variants side by side in the hair texture."""
+LOCKS, LONG_LOCKS = 4, 2
+"""Variants side by side in the hair texture; the first ones are of long hair, the others of short hair."""
 
 
 def resample(path: Array, count: int, sparse: Array) -> Array:

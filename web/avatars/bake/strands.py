@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from bake.body import Body
+from bake.characters import HairStyle
 from bake.head_map import HeadMap
 from bake.mesh import Mesh
 from bake.numeric import Array
-from bake.ribbon import LOCKS, ribbon
+from bake.ribbon import LOCKS, LONG_LOCKS, ribbon
 from bake.skull import Skull
 
 
@@ -40,6 +41,7 @@ class Strands:
 
     def strand(self, path: Array, outward: Array, width: Array, across: int, bulge: float, shade: Array) -> Mesh:
         """A ribbon with a lock drawn at random; see `ribbon`. The shade (n,) darkens the color along the path."""
-        lock = int(self.rng.integers(LOCKS))
+        long = self.body.character.hair is HairStyle.BOB
+        lock = int(self.rng.integers(0, LONG_LOCKS) if long else self.rng.integers(LONG_LOCKS, LOCKS))
         colors = self.color[None] * shade[:, None]
         return ribbon(path, outward, width, across, bulge, lock, colors, self.weights)

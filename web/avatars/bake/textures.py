@@ -1,28 +1,14 @@
-"""Pictures that need no head: skin of the body, cloth, hair, lashes, teeth."""
+"""Pictures that need no body: cloth, hair, lashes."""
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-from bake.body import Body
-from bake.images import jpeg, normal_map, picture, png
-from bake.numeric import Array, smoothstep, value_noise
+from bake.images import jpeg, normal_map, picture, png, shrunk
+from bake.numeric import Array, smoothstep
+from bake.ribbon import LOCKS, LONG_LOCKS
 
-TOOTH, GUM = np.array([236, 229, 214]), np.array([176, 96, 92])
 LASH_COLOR = [26, 19, 17]
-LASHES = 52
-
-
-def body_color(body: Body, size: int = 512) -> bytes:
-    """Arms, hands and neck in the original unwrap: base tone, mottling, nails."""
-    skin = np.array(body.character.skin)
-    color = np.ones((size, size, 3)) * skin
-    y, x = np.mgrid[0:size, 0:size]
-    points = np.stack([x, y, 0 * x], -1) / size
-    color *= (1 + 0.020 * value_noise(points * 40) + 0.015 * value_noise(points * 110))[..., None]
-    color[..., 0] *= 1 + 0.015 * value_noise(points * 60)
-    nails = body.mask("fingernails", size)[..., None]
-    color = color * (1 - 0.55 * nails) + skin * [1.06, 1.0, 1.0] * 0.55 * nails
-    return jpeg(picture(color), 85)
+LASHES = 80
 
 
 def fabric_normal(size: int = 512) -> bytes:
@@ -57,49 +43,37 @@ def lashes(width: int = 512, height: int = 64) -> bytes:
             hair = np.clip(2.3 * (1 - t / length) + 0.5 - np.abs(columns - x), 0, 1) * 0.95
             alpha[row, columns] = np.maximum(alpha[row, columns], hair)
     across = np.arange(width) / width
-    alpha[:5] = np.maximum(alpha[:5], 0.60)
-    alpha *= (smoothstep(0, 0.10, across) * smoothstep(1, 0.90, across))[None]
+    alpha[:5] = np.maximum(alpha[:5], 0.80)
+    alpha *= (smoothstep(0.02, 0.30, across) * smoothstep(0.98, 0.70, across))[None]
     pixels = np.zeros((height, width, 4))
     pixels[..., 3] = gaussian_filter(alpha, 0.5) * 255
     pixels[..., :3] = LASH_COLOR
     return png(picture(pixels))
 
 
-def hair(size: int = 256) -> tuple[bytes, bytes]:
-    """Color with alpha, and normals: four locks side by side whose strands run down; ragged tips, thin side edges."""
+def hair(size: int = 512) -> tuple[bytes, bytes]:
+    """Color with alpha, and normals: locks side by side whose strands run down.
+
+    The first locks are of long hair, the others of short hair, which ends over half of its length.
+    """
     rng = np.random.default_rng(11)
 
     def streaks(width: float) -> Array:
         noise = gaussian_filter(rng.standard_normal(size), width, mode="wrap")
         return noise / noise.std()
 
-    streak = 0.5 * streaks(0.7) + 0.6 * streaks(2.2) + 0.45 * streaks(6)
+    streak = 0.5 * streaks(1.0) + 0.6 * streaks(4.0) + 0.45 * streaks(12)
+    fine = streaks(1.2)[None]
     down = np.linspace(0, 1, size)[:, None]
     light = np.clip(0.82 + 0.11 * streak[None], 0.45, 1.15) * (0.80 + 0.20 * smoothstep(0, 0.35, down))
-    across = (np.arange(size) % (size // 4)) / (size // 4) * 2 - 1
-    length = 0.955 + 0.022 * streaks(2.2).clip(-2.2, 1.8) - 0.10 * np.abs(across) ** 2
-    tips = np.clip((length[None] - down) * size / 14, 0, 1)
-    edges = gaussian_filter(rng.standard_normal(size), 1.5, mode="wrap")
+    across = np.abs((np.arange(size) % (size // LOCKS) + 0.5) / (size // LOCKS) * 2 - 1)[None]
+    length = 0.93 + 0.03 * fine.clip(-2, 2) + 0.02 * streaks(5)[None].clip(-2, 2) - 0.05 * across**2
+    short = np.arange(size)[None] >= size * LONG_LOCKS / LOCKS
+    tips = np.clip((length - down) / np.where(short, 0.50, 0.075) * (1 + 0.40 * fine), 0, 1)
+    edges = np.clip((1 - across) / 0.20 * (1 + 0.45 * fine), 0, 1)
     pixels = np.zeros((size, size, 4))
     pixels[..., :3] = (light * 222)[..., None]
-    pixels[..., 3] = tips * np.clip(
-        (1 - np.abs(across[None])) * (size / 4) / 3 + 0.2 * (edges / edges.std())[None], 0, 1
-    )
-    pixels[..., 3] *= 255
-    return png(picture(pixels)), png(picture(normal_map(np.repeat(streak[None], size, 0) * 1.15, 0.5)))
-
-
-def teeth(size: int = 256) -> bytes:
-    """Upper half: the upper row with its gum at the top; lower half: the lower row with its gum at the bottom."""
-    down = np.linspace(0, 1, size // 2)
-    return jpeg(picture(np.vstack([_row_of_teeth(12, down, size), _row_of_teeth(14, down[::-1], size)])), 85)
-
-
-def _row_of_teeth(count: int, from_gum: Array, size: int) -> Array:
-    across = (np.arange(size) + 0.5) / size
-    in_tooth = (across * count) % 1
-    gap = np.exp(-((np.minimum(in_tooth, 1 - in_tooth) / 0.055) ** 2))
-    gum_line = 0.34 + 0.10 * np.cos(in_tooth * 2 * np.pi)
-    gum = smoothstep(gum_line[None] + 0.05, gum_line[None] - 0.05, from_gum[:, None])[..., None]
-    tooth = TOOTH * (1 - 0.38 * gap[None, :, None]) * (1 - 0.10 * np.abs(across - 0.5)[None, :, None] * 4)
-    return tooth * (1 - gum) + GUM * gum
+    pixels[..., 3] = 255 * tips * edges * (0.35 + 0.65 * smoothstep(0, 0.04, down))
+    pixels[..., 3] *= across < 0.98
+    relief = normal_map(np.repeat(streak[None], size, 0) * 1.15, 0.5)
+    return png(picture(pixels)), png(shrunk(relief, size // 2))

@@ -8,7 +8,8 @@ from scipy.ndimage import distance_transform_edt, gaussian_filter, map_coordinat
 from bake.body import Body, sum_columns
 from bake.characters import TopDesign
 from bake.cloth import SLIVER, Garment, Surface, band, cut_cloth, gaussian, hem
-from bake.mesh import Mesh, merge, vertex_normals
+from bake.lowered_arms import LoweredArms
+from bake.mesh import Mesh, merge, neighbors, vertex_normals
 from bake.neckline import collar, neck_field, smooth_neck
 from bake.numeric import Array, Field, smoothstep, value_noise
 from bake.rig import SIDES
@@ -16,6 +17,12 @@ from bake.surgery import Rim, RimRow, clip, collapse_rim, relax, rim_vertices, r
 
 _ROWS, _SECTORS = 48, 64
 """Resolution of the drape around the torso."""
+
+_SPREAD_ROUNDS, _LEG_SHARE = 60, 0.62
+"""How far the weights of the legs are spread over the hem, and how much of them is kept."""
+
+_SHOULDER_ROUNDS = 60
+"""Rounds of smoothing of the shoulders."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +66,26 @@ class _Shirt:
         near = body.is_skin & (p[:, 1] > lines.hem - 0.2) & (p[:, 1] < lines.neck[1] + 0.12)
         self.skin = Surface(body, near & (np.abs(p[:, 0]) < lines.sleeve + 0.12))
         self.cloth = cut_cloth(body, lambda q: (q[:, 1] > lines.hem - 0.10) & (np.abs(q[:, 0]) < lines.sleeve + 0.08))
-        self.cloth.weights = Surface(body, near).weights_for(self.cloth)
+        self.cloth.weights = self._hanging_weights(Surface(body, near).weights_for(self.cloth))
         self.arm = sum_columns(self.cloth.weights, body.rig.columns("Arm", "Hand"))
         self.points = self.skin.push(relax(self.cloth.positions, self.cloth.triangles, 6), 0.006)
         on_torso = (self.arm < 0.35) & (self.points[:, 1] < lines.shoulder_height - 0.02)
         self.on_torso = np.where(on_torso)[0]
         self.axis_z = np.median(self.points[on_torso][:, 2])
+
+    def _hanging_weights(self, weights: Array) -> Array:
+        """Below the hips, the cloth spans both legs instead of following each: (v, joints)."""
+        legs = self.body.rig.columns("Leg")
+        heights, links = self.cloth.positions[:, 1], neighbors(self.cloth.triangles, len(weights))
+        links.data[:] = 1
+        spread = weights[:, legs]
+        for _ in range(_SPREAD_ROUNDS):
+            spread = 0.5 * spread + 0.5 * (links @ spread) / np.asarray(links.sum(1)).ravel()[:, None]
+        low = smoothstep(self.pattern.hip + 0.14, self.pattern.hip + 0.02, heights)[:, None]
+        kept = weights[:, legs] * (1 - low) + _LEG_SHARE * spread * low
+        weights[:, self.body.rig.index("Hips")] += (weights[:, legs] - kept).sum(1)
+        weights[:, legs] = kept
+        return weights
 
     def drape(self) -> None:
         """Hang the torso from chest and shoulder blades instead of clinging to the waist."""
@@ -116,8 +137,8 @@ class _Shirt:
     def _sleeve_radius(self, x: Array) -> Array:
         lines, radius = self.pattern, self.design.sleeve_radius
         if self.design.sleeve_bone == "Arm":
-            return radius * (1 + 0.10 * smoothstep(lines.shoulder, lines.sleeve, x))
-        return np.interp(x, [lines.shoulder, lines.elbow, lines.wrist], [radius * 1.12, radius, radius * 0.98])
+            return radius * (1 - 0.06 * smoothstep(lines.shoulder, lines.sleeve, x))
+        return np.interp(x, [lines.shoulder, lines.elbow, lines.sleeve], [radius * 1.08, radius, radius * 0.84])
 
     def wrinkle(self) -> None:
         """Soft folds at waist and elbows."""
@@ -130,6 +151,17 @@ class _Shirt:
         p = p + vertex_normals(p, triangles) * folds[:, None]
         p = self.skin.push(relax(p, triangles, 2, 0.4), 0.0045)
         self.cloth.positions = relax(p, triangles, 1, 0.3)
+
+    def settle(self) -> None:
+        """Round the shoulders while the arms hang, as they mostly do: linear skinning leaves pads there."""
+        pose = LoweredArms(self.body.rig, self.cloth.weights)
+        points = pose.apply(self.cloth.positions)
+        near = np.zeros(len(points))
+        for side, _ in SIDES:
+            away = np.linalg.norm(points - self.body.places[side + "Arm"], axis=1)
+            near = np.maximum(near, smoothstep(0.15, 0.06, away))
+        smooth = relax(points, self.cloth.triangles, _SHOULDER_ROUNDS)
+        self.cloth.positions = pose.undo(points + (smooth - points) * near[:, None])
 
     def finish(self, neck: Field) -> Mesh:
         """Cut at neck, hem and sleeves, and sew on collar, hem and cuffs."""
@@ -174,9 +206,10 @@ def build_top(body: Body) -> tuple[Garment, float]:
     lines = shirt.pattern
     neck = neck_field(body, shirt.design.neckline)
     smooth_neck(shirt.cloth, neck, body, shirt.skin)
+    shirt.settle()
 
     def covers(points: Array) -> Array:
-        on_trunk = (neck(points) > 0.009) & (points[:, 1] > lines.hem + 0.02)
+        on_trunk = (neck(points) > 0.003) & (points[:, 1] > lines.hem + 0.02)
         return on_trunk & (np.abs(points[:, 0]) < lines.sleeve - 0.015)
 
     return Garment(shirt.finish(neck), covers), lines.hem
