@@ -37,7 +37,8 @@ class Player:
         self._begun: dict[PlanUnit, int] = {}
         self._added = 0
         self._agenda: Agenda[PlanUnit] = Agenda(lambda unit: unit.next_due(), lambda unit: unit.awaited())
-        self._ended: list[PlanUnit] = []
+        self._ended: dict[PlanUnit, None] = {}
+        self._owners = Owners()
         self._touched: list[PlanUnit] = []
         """The units that may have ended: those that have changed."""
         self._dropped: list[Dropped] = []
@@ -73,30 +74,30 @@ class Player:
     def note(self, unit: PlanUnit) -> None:
         """Note that a unit has changed."""
         if unit in self._units and unit.state is UnitState.IN_EXEC:
-            self._begun[unit] = self._units[unit]
+            self._note_begin(unit)
         self._touched.append(unit)
         self._agenda.note(unit)
 
     def remove(self, unit: PlanUnit) -> None:
         """Remove a unit from the plan, if it is in the plan."""
         if unit in self._units:
-            self._forget(unit)
             self._note_end(unit)
+            self._forget(unit)
             self._agenda.wake()
 
     def play(self, tick: Tick) -> tuple[Reached, ...]:
         """Begin the units and fire the sync points that are due; forget units that have ended."""
-        self._ended = [unit for unit in self._ended if not is_due(unit.points[-1].peg.value, tick.previous)]
+        for unit in [unit for unit in self._ended if is_due(unit.points[-1].peg.value, tick.previous)]:
+            del self._ended[unit]
+            self._owners.remove(unit)
         reached: list[Reached] = []
         now, previous = tick.time, tick.previous
         due, starting = self._due(now)
         for unit in due:
             self._fire(unit, now, reached)
-        owners = Owners((*self.playing, *self._ended)) if starting else Owners(())
         for unit in starting:
-            if not self._held(unit, owners, now, previous):
+            if not self._held(unit, now, previous):
                 self._fire(unit, now, reached)
-                owners.add(unit)
         self._forget_ended()
         return tuple(reached)
 
@@ -142,9 +143,10 @@ class Player:
         if not due:
             return [], []
         starting = sorted((unit for unit in due if unit.due(now)), key=_rank)
-        return [unit for unit in self.playing if unit in due], starting
+        playing = (unit for unit in due if unit in self._begun and unit.state is UnitState.IN_EXEC)
+        return sorted(playing, key=self._begun.__getitem__), starting
 
-    def _held(self, unit: PlanUnit, owners: Owners, now: GlobalTime, previous: GlobalTime) -> bool:
+    def _held(self, unit: PlanUnit, now: GlobalTime, previous: GlobalTime) -> bool:
         """Whether a due unit cannot begin now: it is dropped, or others have to end first in this round."""
         start = unit.points[0].peg.value
         if start is None or not unit.due(now):
@@ -153,8 +155,8 @@ class Player:
             self._drop(unit, fault, now)
             return True
         begin = now if is_due(start, previous) else start  # a unit that joins late begins now
-        unit.settle(owners.kept_from(unit, begin))
-        staying, leaving = owners.excluded_by(unit, begin)
+        unit.settle(self._owners.kept_from(unit, begin))
+        staying, leaving = self._owners.excluded_by(unit, begin)
         if staying:
             self._drop(unit, _taken(unit, staying[0]), now)
         else:
@@ -164,7 +166,7 @@ class Player:
     def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached]) -> None:
         if unit.due(now):
             unit.begin()
-            self._begun[unit] = self._units[unit]
+            self._note_begin(unit)
         due = unit.due_points(now)
         try:
             unit.fire(due, now)
@@ -183,12 +185,18 @@ class Player:
     def _forget(self, unit: PlanUnit) -> None:
         del self._units[unit]
         self._begun.pop(unit, None)
+        if unit not in self._ended:
+            self._owners.remove(unit)
         self._agenda.remove(unit)
         unit.wake = sleep
 
+    def _note_begin(self, unit: PlanUnit) -> None:
+        self._begun[unit] = self._units[unit]
+        self._owners.add(unit)
+
     def _note_end(self, unit: PlanUnit) -> None:
         if unit.state is UnitState.DONE:
-            self._ended.append(unit)
+            self._ended[unit] = None
 
     def _fail(self, unit: PlanUnit, failure: Exception, now: GlobalTime) -> None:
         # The sentence explains a fault of a file; an internal error needs the traceback.

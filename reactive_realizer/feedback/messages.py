@@ -1,6 +1,6 @@
 """Feedback as data (BML 1.0, with the status of BMLA, and falls)."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from reactive_realizer.bml.behavior import Behavior
@@ -63,7 +63,7 @@ class PredictionFeedback:
     start: GlobalTime
     end: GlobalTime
     status: str
-    behaviors: tuple[BehaviorPrediction, ...] = ()
+    behaviors: Collection[BehaviorPrediction] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from heapq import heapify, heappop, heappush
+from operator import itemgetter
 from typing import Generic, TypeVar
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
@@ -19,12 +20,14 @@ _FEW = 32
 class Agenda(Generic[T]):
     """Items by the times at which they are next due.
 
-    An item is read when it is added, and again only after `note`, or after one of its pegs has moved: soon if that may
-    make it due earlier, otherwise when the time comes that was read. An item that waits costs nothing.
+    An item is read when it is added, and again only after `note`, or after one of its pegs has moved: if that may make
+    it due earlier, soon, unless it is due at the time of that peg; otherwise when the time comes that was read. An item
+    that waits costs nothing, and one that is due when it is read is not put on the heap.
 
     Args:
         due: returns the time at which an item is next due; None while it is unknown.
-        pegs: returns the pegs on which this time depends. The time may not come earlier when one of them comes later.
+        pegs: returns the pegs on which this time depends. The time may not come earlier when one of them comes later,
+            and it comes at the time of a peg as long as it is that time, however much earlier the peg comes.
         wake: called when an item is to be read again.
     """
 
@@ -41,7 +44,7 @@ class Agenda(Generic[T]):
         self._numbers: dict[T, int] = {}
         self._times: dict[T, GlobalTime] = {}
         self._later: set[T] = set()
-        """The items that may be due later than they were when they were read."""
+        """The items that have moved since they were read, and may be due later than at the time that is known."""
         self._unread: dict[T, None] = {}
         self._items: dict[int, T] = {}
         self._heap: list[tuple[GlobalTime, int]] = []
@@ -75,19 +78,22 @@ class Agenda(Generic[T]):
 
     def take_due(self, now: GlobalTime) -> list[T]:
         """The items that are due, in order of time. Each is read again before the next call."""
-        self._read()
-        due: list[T] = []
+        due: list[tuple[GlobalTime, int, T]] = []
         try:
+            self._read(now, due)
             while is_due(self._first, now):
-                item = self._items[heappop(self._heap)[1]]
+                time, number = heappop(self._heap)
+                item = self._items[number]
                 if item in self._later:
                     self._unread[item] = None
-                    self._read()
                 else:
-                    due.append(item)
+                    due.append((time, number, item))
+                if not is_due(self._first, now):
+                    self._read(now, due)
         finally:
-            self._unread.update(dict.fromkeys(due))
-        return due
+            items = [item for _, _, item in sorted(due, key=itemgetter(0, 1))]
+            self._unread.update(dict.fromkeys(items))
+        return items
 
     @property
     def _first(self) -> Time:
@@ -98,34 +104,44 @@ class Agenda(Generic[T]):
         return heap[0][0] if heap else None
 
     def _note_move(self, item: T, change: Change) -> None:
-        """Note that a peg of an item has moved; nothing is done yet if that cannot make it due earlier."""
+        """Note that a peg of an item has moved; it is not read before the earliest time at which it can be due now."""
         time, new = self._times.get(item), change.new
-        if time is not None and not isinstance(new, Failure) and (new is None or new >= time):
+        if time is None or isinstance(new, Failure):
+            self.note(item)
+        elif new is None or new >= time:
+            self._later.add(item)
+            self.wake()
+        elif change.old == time:
+            self._times[item] = new
+            heappush(self._heap, (new, self._numbers[item]))
             self._later.add(item)
             self.wake()
         else:
             self.note(item)
 
-    def _read(self) -> None:
-        """Read the items that have changed."""
+    def _read(self, now: Time = None, due: list[tuple[GlobalTime, int, T]] | None = None) -> None:
+        """Read the items that have changed; those that are due now are only added to ``due``."""
         while self._unread:
-            item = next(iter(self._unread))
-            time = self._due(item)
-            self._watch.follow(item, self._pegs(item))
-            number = self._renumber(item)
-            self._later.discard(item)
-            if time is None:
+            for item in tuple(self._unread):
+                time = self._due(item)
+                number = self._renumber(item)
+                self._later.discard(item)
                 self._times.pop(item, None)
-            else:
-                self._times[item] = time
-                heappush(self._heap, (time, number))
-            del self._unread[item]
+                if due is not None and now is not None and time is not None and is_due(time, now):
+                    due.append((time, number, item))
+                else:
+                    self._watch.follow(item, self._pegs(item))
+                    if time is not None:
+                        self._times[item] = time
+                        heappush(self._heap, (time, number))
+                del self._unread[item]
         if len(self._heap) > 2 * len(self._numbers) + _FEW:
-            self._heap = [each for each in self._heap if each[1] in self._items]
+            times, items = self._times, self._items
+            self._heap = [each for each in self._heap if (own := items.get(each[1])) and times.get(own) == each[0]]
             heapify(self._heap)
 
     def _renumber(self, item: T) -> int:
-        """Give an item a new number; the heap's entry with the old one is outdated."""
+        """Give an item a new number; the heap's entries with the old one are outdated."""
         self._items.pop(self._numbers.get(item, 0), None)
         self._number += 1
         self._numbers[item] = self._number

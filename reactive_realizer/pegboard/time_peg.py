@@ -32,6 +32,7 @@ Bound = tuple[TimeCell, float]
 """A peg and a distance (s) from it."""
 
 _MOST_NAMES = 5
+_tuple = tuple.__new__
 
 
 class Link(NamedTuple):
@@ -471,7 +472,8 @@ def state_of(peg: TimeCell) -> str:
 
 
 def _link(peg: TimeCell) -> Link:
-    return Link(peg.name, kind_of(peg), time_of(peg), peg.stamp, weakref.ref(peg))
+    # Equivalent to `Link(...)`, in half the time: this runs for every point that is reached.
+    return _tuple(Link, (peg.name, kind_of(peg), time_of(peg), peg.stamp, weakref.ref(peg)))
 
 
 def _shifted(links: Iterable[Link], distances: Iterable[float]) -> str:

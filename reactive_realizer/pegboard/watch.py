@@ -1,10 +1,10 @@
 """Which items hang on which pegs, and a watch, which tells the items of pegs that have moved."""
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar
 
 from reactive_realizer.pegboard.time_peg import TimeCell
-from reactive_realizer.reactive.graph import Change, Subscription
+from reactive_realizer.reactive.graph import Change, Observer
 
 T = TypeVar("T")
 
@@ -38,10 +38,6 @@ class PegIndex(Generic[T]):
         for peg in self._pegs.pop(item, ()):
             self._leave(peg, item)
 
-    def of(self, peg: TimeCell) -> Collection[T]:
-        """The items of a peg."""
-        return self._items.get(peg, ())
-
     def following(self, pegs: Iterable[TimeCell]) -> list[T]:
         """The items that have any of some pegs, each once."""
         found: dict[T, None] = {}
@@ -49,6 +45,16 @@ class PegIndex(Generic[T]):
             if (items := self._items.get(peg)) is not None:
                 found.update(items)
         return list(found)
+
+    def moved(self, changes: Iterable[Change]) -> tuple[set[T], list[Change]]:
+        """The items of the pegs that some changes moved, and those of the changes that moved pegs of items."""
+        items: set[T] = set()
+        moves: list[Change] = []
+        for change in changes:
+            if (found := self._items.get(change[0])) is not None:
+                items.update(found)
+                moves.append(change)
+        return items, moves
 
     def _leave(self, peg: TimeCell, item: T) -> None:
         items = self._items[peg]
@@ -74,14 +80,14 @@ class Watch(PegIndex[T]):
     def __init__(self, moved: Callable[[T, Change], object]) -> None:
         super().__init__()
         self._moved = moved
-        self._subscriptions: dict[TimeCell, Subscription] = {}
+        self._observer = Observer(self._note)
 
     def _joined(self, peg: TimeCell) -> None:
-        self._subscriptions[peg] = peg.observe(self._note)
+        peg.attach(self._observer)
 
     def _left(self, peg: TimeCell) -> None:
-        self._subscriptions.pop(peg).dispose()
+        peg.detach(self._observer)
 
     def _note(self, change: Change) -> None:
-        for item in tuple(self.of(change.cell)):
+        for item in tuple(self._items.get(change[0], ())):
             self._moved(item, change)

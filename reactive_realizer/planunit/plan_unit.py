@@ -314,7 +314,9 @@ class PlanUnit:
         )
 
     def awaited(self) -> list[TimePeg]:
-        """The pegs that it waits for: that of its start or, while it plays, those of the points ahead."""
+        """The pegs that it waits for: that of its start once its block plays, and then those of the points ahead."""
+        if self.state is UnitState.PENDING:
+            return []
         return [point.peg for point in (self.ahead() if self.begun else self.points[:1])]
 
     def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:

@@ -79,6 +79,14 @@ class Derived(Cell[T]):
 
     def compute(self) -> T | Failure:
         """The formula applied to the current values, or the failure of doing so."""
+        if len(self.dependencies) == 1:  # most cells have one
+            value = self.dependencies[0]._value
+            if type(value) is Failure:
+                return value
+            try:
+                return self.formula(value)
+            except Exception as error:
+                return self._failure(error)
         values = []
         for cell in self.dependencies:
             value = cell._value

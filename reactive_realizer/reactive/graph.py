@@ -1,7 +1,7 @@
 """Cells and the graph that propagates changes through them: many writes, one propagation, one record."""
 
 import logging
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -52,7 +52,7 @@ class Cell(Generic[T]):
         self.name = name
         self.rank = 0
         self.dependents: dict[Cell[Any], None] = {}
-        self.observers: dict[Subscription, None] = {}
+        self.observers: dict[Observer, None] = {}
         self.stale = False
         self.stamp: Stamp | None = None
         self.disposed = False
@@ -104,6 +104,14 @@ class Cell(Generic[T]):
         """
         return Subscription(self.observers, notify, ended)
 
+    def attach(self, observer: "Observer") -> None:
+        """As `observe`, with an observer of several cells."""
+        self.observers[observer] = None
+
+    def detach(self, observer: "Observer") -> None:
+        """Have an observer not be notified any more."""
+        self.observers.pop(observer, None)
+
     def dispose(self) -> None:
         """Take the cell out of propagation, at any time: it keeps its value.
 
@@ -111,27 +119,37 @@ class Cell(Generic[T]):
         """
         self.graph.settle()
         self.disposed = True
-        for subscription in list(self.observers):
-            subscription.dispose()
-            subscription.ended()
+        observers = list(self.observers)
+        self.observers.clear()
+        for observer in observers:
+            observer.ended()
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name} = {self._value}>"
 
 
-class Subscription:
-    """An observer of a cell, until it is disposed of; disposing twice is harmless."""
+class Observer:
+    """What is called after each commit that changed a cell, and when the cell is disposed of."""
 
-    __slots__ = ("_observers", "ended", "notify")
+    __slots__ = ("ended", "notify")
+
+    def __init__(self, notify: Callable[["Change"], object], ended: Callable[[], object] = lambda: None) -> None:
+        self.notify = notify
+        self.ended = ended
+
+
+class Subscription(Observer):
+    """An observer of one cell, until it is disposed of; disposing twice is harmless."""
+
+    __slots__ = ("_observers",)
 
     def __init__(
         self,
-        observers: "dict[Subscription, None]",
+        observers: dict[Observer, None],
         notify: Callable[["Change"], object],
         ended: Callable[[], object],
     ) -> None:
-        self.notify = notify
-        self.ended = ended
+        super().__init__(notify, ended)
         self._observers = observers
         observers[self] = None
 
@@ -267,13 +285,13 @@ class Graph:
         """
         self._check_writable(cell)
         if not cell.stale:
-            self._mark_stale(cell)
+            self._mark_stale((cell,))
 
     def rerank(self, cell: Cell[Any], rank: int) -> None:
         """Move a cell to a higher rank, also while it waits to be recomputed."""
         cell.rank = rank
         if cell.stale:
-            self._mark_stale(cell)
+            self._mark_stale((cell,))
 
     def settle(self) -> None:
         """Recompute the stale cells, lowest rank first."""
@@ -291,9 +309,8 @@ class Graph:
         if value != old:
             self._before.setdefault(cell, old)
             cell._value = value
-            for dependent in cell.dependents:
-                if not dependent.stale:
-                    self._mark_stale(dependent)
+            if cell.dependents:
+                self._mark_stale([dependent for dependent in cell.dependents if not dependent.stale])
 
     def _check_writable(self, cell: Cell[Any]) -> None:
         if self._depth == 0:
@@ -301,14 +318,16 @@ class Graph:
         if cell.disposed:
             raise DisposedCellError(f"'{cell.name}' is written after it was disposed of")
 
-    def _mark_stale(self, cell: Cell[Any]) -> None:
-        cell.stale = True
-        bucket = self._buckets.get(cell.rank)
-        if bucket is None:
-            self._buckets[cell.rank] = [cell]
-            heappush(self.stale_ranks, cell.rank)
-        else:
-            bucket.append(cell)
+    def _mark_stale(self, cells: Iterable[Cell[Any]]) -> None:
+        buckets = self._buckets
+        for cell in cells:
+            cell.stale = True
+            bucket = buckets.get(cell.rank)
+            if bucket is None:
+                buckets[cell.rank] = [cell]
+                heappush(self.stale_ranks, cell.rank)
+            else:
+                bucket.append(cell)
 
     def _apply_rules(self) -> None:
         if not self._before:
@@ -343,10 +362,10 @@ class Graph:
         try:
             for change in commit.changes:
                 cell = change[0]
-                for subscription in list(cell.observers) if cell.observers else ():
-                    # An observer may have disposed of one that comes after it.
-                    if subscription in cell.observers:
-                        _try(subscription.notify, change, cell.name)
+                for observer in tuple(cell.observers) if cell.observers else ():
+                    # An observer may have detached one that comes after it.
+                    if observer in cell.observers:
+                        _try(observer.notify, change, cell.name)
             for listener in self._listeners:
                 _try(listener, commit, commit.stamp.cause)
         finally:

@@ -102,9 +102,9 @@ class BlockComposition:
         """
         if self.description.accompanies is not None and self.accompanied is None:
             return NothingToAccompany(block=self.description.accompanies, known=self._blocks.names(self.character))
-        predecessors = self.predecessors
-        ended = self.ended
-        for block in (each for each in (*self._before, *self._before_chunks) if each not in ended):
+        later = (*self._before, *self._before_chunks)
+        predecessors, ended = (self.predecessors, self.ended) if later else ([], [])
+        for block in (each for each in later if each not in ended):
             if block.state.plays:
                 return StartedAlready(block=block.key.block)
             if any(each.peg.depends_on(block.start) for each in predecessors):

@@ -62,13 +62,7 @@ class BlockWatch:
         return in_order(self._index.following(pegs))
 
     def _note(self, commit: Commit) -> None:
-        blocks: set[BMLBlock] = set()
-        changes = []
-        of = self._index.of
-        for change in commit.changes:
-            if found := of(change[0]):
-                blocks.update(found)
-                changes.append(change)
+        blocks, changes = self._index.moved(commit.changes)
         if changes:
             for moves in self._moves:
                 moves.note(blocks, changes)

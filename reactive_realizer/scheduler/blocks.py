@@ -204,6 +204,6 @@ def _start(block: BMLBlock) -> Time:
 def _is_awaited(block: BMLBlock) -> bool:
     """Whether another block of its character, which is neither preplanned nor gives way, waits for its end."""
     return any(
-        for_end and not other.awaits_activation and not other.gives_way and other.key.character == block.key.character
+        for_end and not other.awaits_activation and other.key.character == block.key.character
         for other, for_end in block.successors.items()
     )

@@ -74,7 +74,9 @@ class BMLBlock:
         relax: the time at which it subsides: the latest relax of its behaviors, or end of those without a relax.
         end: the latest end of its behaviors; persistent ones count with their last known point.
         predecessors: the blocks that it starts after.
-        successors: the blocks that have it as a predecessor, and whether they wait for its end.
+        successors: the blocks that have it as a predecessor, and whether they wait for its end; without those that give
+            way.
+        yielding_successors: likewise, those that give way.
         holds: pegs before which its constraints do not let it start.
         units: its behaviors that are planned and not dropped, in document order.
         cancelled: ids of behaviors that were interrupted before the block started.
@@ -111,6 +113,7 @@ class BMLBlock:
             accompanied.accompaniments[self] = None
         self.predecessors: tuple[Predecessor, ...] = ()
         self.successors: dict[BMLBlock, bool] = {}
+        self.yielding_successors: dict[BMLBlock, bool] = {}
         self._link(predecessors)
         self.holds: tuple[TimeCell, ...] = ()
         self.started_at: Time = None
@@ -208,6 +211,12 @@ class BMLBlock:
         return {"start": self.start, "relax": self.relax, "end": self.end}[sync]
 
     @property
+    def earliest_point(self) -> Time:
+        """The earliest known time of its points; None if none is known."""
+        times = [point.peg.value for unit in self.units for point in unit.points]
+        return min([time for time in times if time is not None], default=None)
+
+    @property
     def times_ahead(self) -> list[GlobalTime]:
         """The known times of its future points; of a block that has not started, only the start, if it may start."""
         if self.state.plays:
@@ -293,7 +302,7 @@ class BMLBlock:
         """Leave the predecessors of an ended block to those that come after it, and the block that it accompanies."""
         if self.accompanied is not None:
             self.accompanied.accompaniments.pop(self, None)
-        for other in sorted(self.successors, key=lambda block: block.arrival):
+        for other in sorted((*self.successors, *self.yielding_successors), key=lambda block: block.arrival):
             other.take_over_predecessors(self)
         self._link(())
 
@@ -311,10 +320,14 @@ class BMLBlock:
 
     def _link(self, predecessors: Iterable[Predecessor]) -> None:
         for each in self.predecessors:
-            each.block.successors.pop(self, None)
+            self._among_successors_of(each.block).pop(self, None)
         self.predecessors = tuple(predecessors)
         for each in self.predecessors:
-            each.block.successors[self] = not each.chunk or each.block.successors.get(self, False)
+            successors = self._among_successors_of(each.block)
+            successors[self] = not each.chunk or successors.get(self, False)
+
+    def _among_successors_of(self, other: "BMLBlock") -> "dict[BMLBlock, bool]":
+        return other.yielding_successors if self.gives_way else other.successors
 
     def _name(self, board: PegBoard, anticipator: str, sync: str, peg: AnticipatorPeg) -> None:
         """Name an occurrence of a point."""

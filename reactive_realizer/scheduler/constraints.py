@@ -223,7 +223,8 @@ class ReferenceResolver:
         own = other.description.points.get(ref.sync or "")
         if own is not None:
             return replace(ref, behavior=own.behavior, sync=own.sync)
-        times = {unit.behavior.id: unit.time("ready") for unit in other.units if "ready" in unit.timing.points}
+        points = ((unit.behavior.id, point) for unit in other.units for point in unit.points)
+        times = {id_: point.peg.value for id_, point in points if point.id == "ready"}
         if ref.sync == "ready" and times:
             return replace(ref, behavior=min(times, key=lambda id_: (times[id_] is None, times[id_] or 0.0)))
         if ref.sync == "ready" and other.state is BlockState.IN_PREP:

@@ -299,9 +299,8 @@ class Planning:
         Returns:
             None if the present plan is still good, or the new plan of a chunk would lose anything.
         """
-        times = (point.peg.value for unit in block.units for point in unit.points)
         late = any(has_passed(cell.value, start + least) for cell, (least, _) in block.bounds.items())
-        early = late or any(has_passed(time, start) for time in times)
+        early = late or has_passed(block.earliest_point, start)
         if not early and not any(each.chunk for each in block.predecessors):
             return None
         items = {unit: Item(unit.behavior, unit.preference(now).closed) for unit in block.units}

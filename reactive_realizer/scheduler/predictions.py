@@ -1,7 +1,8 @@
 """Prediction feedback: reported when it is requested, and again when a reported time has moved."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.ticker import RATE
 from reactive_realizer.clock.units import BlockTime, GlobalTime, Time, is_due
 from reactive_realizer.feedback.feedback_manager import FeedbackManager
@@ -123,17 +124,41 @@ def _differ(before: Mapping[str, Time], after: Mapping[str, Time]) -> bool:
     )
 
 
+class _Behaviors(Collection[BehaviorPrediction]):
+    """The behaviors of a prediction, each made when it is read: a long prediction is written after its tick.
+
+    Args:
+        behaviors: of the block.
+        times: of each behavior, by id.
+        start: of the block, s.
+    """
+
+    def __init__(self, behaviors: Sequence[Behavior], times: _Times, start: GlobalTime) -> None:
+        self._behaviors = behaviors
+        self._times = times
+        self._start = start
+
+    def __len__(self) -> int:
+        return len(self._behaviors)
+
+    def __iter__(self) -> Iterator[BehaviorPrediction]:
+        for behavior in self._behaviors:
+            yield BehaviorPrediction(behavior, _known(self._times[behavior.id], self._start))
+
+    def __contains__(self, behavior: object) -> bool:
+        return any(each == behavior for each in self)
+
+
 def _prediction(block: BMLBlock, times: _Times, now: GlobalTime) -> PredictionFeedback:
     """The known times of a block; if its start is unknown, the times that were planned, as if it started now."""
     start, end = block.start.value, block.end.value
     if start is None:
         start = now
         times = {id_: _planned(block, id_, own, start) for id_, own in times.items()}
-    behaviors = tuple(
-        [BehaviorPrediction(unit.behavior, _known(times[unit.behavior.id], start)) for unit in block.units]
-    )
     if end is None:
-        end = GlobalTime(start + max((time for each in behaviors for time in each.times.values()), default=0.0))
+        known = (time for id_, own in times.items() if id_ for time in own.values() if time is not None)
+        end = max([start, *known])
+    behaviors = _Behaviors([unit.behavior for unit in block.units], times, start)
     return PredictionFeedback(*block.key, start, end, block.state.value, behaviors)
 
 

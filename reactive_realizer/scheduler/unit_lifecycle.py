@@ -216,7 +216,9 @@ class UnitLifecycle:
         """Drop a behavior with a warning; if it had begun, it ends now. The block of a required one fails."""
         block = self._blocks.get(unit.block)
         if block is not None and unit.begun:
-            self._predictions.report_requested(block, now)  # its start is reported in this tick
+            if any(point.fired and not is_due(point.peg.value, self._board.previous) for point in unit.points):
+                self._predictions.request(block)  # this tick reports points that no later prediction names
+            self._predictions.report_requested(block, now)
         unit.drop(now)
         self.touch(unit.block)
         self._feedback.warn_behavior(unit, fault)

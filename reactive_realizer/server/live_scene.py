@@ -20,8 +20,9 @@ from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
 from reactive_realizer.server.protocol import VERSION, Message
 
-_YOUNG = 50_000
-"""Number of new objects that trigger a collection: more than a plan of a few hundred behaviors needs."""
+_YOUNG, _OLDER = 5_000, 1_000
+"""Number of new objects that trigger a collection of these, which takes 1 ms; and number of these collections after
+which what they left is searched too, which takes longer the more is alive."""
 
 
 _SWITCH = 0.0005
@@ -38,7 +39,7 @@ def keep_from_ticks() -> None:
     """
     gc.collect()
     gc.freeze()
-    gc.set_threshold(_YOUNG)
+    gc.set_threshold(_YOUNG, _OLDER)
     sys.setswitchinterval(_SWITCH)
 
 

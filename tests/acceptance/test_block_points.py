@@ -129,3 +129,13 @@ async def test_a_reference_to_a_point_that_a_block_does_not_have_drops_its_behav
     unknown = "a:strokeEnd: the block 'a' has no sync point 'strokeEnd'; it has start, ready, stroke, relax, end"
     assert unknown in "\n".join(said)
     assert pilot.feedback.reached("c:n:end")
+
+
+async def test_a_block_of_which_the_only_ready_was_cut_has_none(pilot: RealizerPilot) -> None:
+    pilot.block("a", '<gesture id="g" lexeme="BEAT"/><wait id="w" duration="3"/>')
+    pilot.block("stop", '<bmla:interrupt id="i" target="a" include="g" start="a:g:start+0.02"/>')
+    await pilot.advance(0.2)
+    pilot.block("b", NOD.format("a:ready"))
+    await pilot.advance(4)
+    assert "a:ready has no time because 'a:ready' is dropped" in texts(pilot)[-1]
+    assert pilot.feedback.status("a") == "DONE"

@@ -225,3 +225,22 @@ async def test_a_behavior_that_is_dropped_in_the_tick_in_which_it_begins_is_pred
     assert pilot.feedback.reached("b:q:start")
     first = next(message for message in pilot.feedback.messages if message.kind == "predictionFeedback")
     assert first.predicted("b:q:start") == 0.0
+
+
+async def test_points_that_are_reached_in_the_tick_in_which_their_behavior_is_dropped_are_predicted(
+    any_strategy: RealizerPilot,
+) -> None:
+    pilot = any_strategy
+    pilot.predict("test", "hit", 1.0)
+    arm = 'lexeme="BEAT" mode="LEFT_HAND"'
+    first = f'<gesture id="g" {arm} stroke="{HIT}" end="other:end"/>'
+    other = f'<gesture id="other" {arm} start="{HIT}" end="anticipators:test:unknown"/>'
+    pilot.block("b", f'{first}{other}<wait id="w" duration="3"/>')
+    await pilot.advance(1.1)
+    assert [name for name, _ in pilot.feedback.warnings] == ["b:other", "b:g"]
+    assert pilot.feedback.time("b:g:stroke") == pilot.feedback.time("b:g:end") == 1.0
+    before, after = [line for line in pilot.feedback.predictions("b") if line.time == 1.0]
+    gesture = before.element.find("{*}gesture")
+    assert gesture is not None
+    assert gesture.get("stroke") == "1"
+    assert after.element.find("{*}gesture") is None

@@ -87,6 +87,27 @@ def test_an_item_that_moves_later_is_read_only_when_its_old_time_has_come(stage:
     assert stage.due(8.0) == ["b"]
 
 
+def test_an_item_that_moves_earlier_with_the_peg_that_it_is_due_at_is_read_only_when_it_is_due(stage: Stage) -> None:
+    stage.add("a", 5.0)
+    stage.due(1.0)
+    stage.read.clear()
+    for time, next_due in ((4.0, 4.0), (3.0, 3.0), (8.0, 3.0), (3.5, 3.0)):
+        stage.move("a", time)
+        assert stage.agenda.next_due == next_due
+    assert stage.read == []
+    assert stage.due(3.2) == []
+    assert stage.read == ["a"]
+    assert stage.due(3.5) == ["a"]
+
+
+def test_an_item_that_is_due_when_it_is_read_is_not_observed(stage: Stage) -> None:
+    stage.add("a", 1.0)
+    assert stage.due(1.0) == ["a"]
+    assert not stage.pegs["a"].observers
+    assert stage.agenda.next_due == 1.0
+    assert stage.pegs["a"].observers
+
+
 def test_it_wakes_for_new_items_and_for_each_move(stage: Stage) -> None:
     stage.add("a", 5.0)
     stage.agenda.take_due(GlobalTime(1.0))

@@ -18,6 +18,7 @@ from reactive_realizer.engines.speech.stretched_utterance import StretchedUttera
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import DuePoint, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
@@ -198,6 +199,10 @@ class SpeechUnit(SoundUnit):
             return due
         making = GlobalTime(origin + begin - _AHEAD)
         return making if due is None else min(due, making)
+
+    def awaited(self) -> list[TimePeg]:
+        """As `PlanUnit.awaited`; its sound is made ahead of its start also before its block plays."""
+        return super().awaited() or [point.peg for point in self.points[:1]]
 
     def detach(self, point: SyncPoint, time: GlobalTime) -> None:
         """As `PlanUnit.detach`, when it is cut: its end no longer determines how fast it is spoken."""
