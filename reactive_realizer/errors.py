@@ -100,11 +100,12 @@ class Fault(_Kind):
         return shown
 
     def _nearest(self) -> list[str]:
-        """The known names that are most like the unknown ones."""
+        """The known names that are most like the unknown ones, each once."""
         if not self.unknown:
             return []
         written, known = self.details[self.unknown], cast("tuple[str, ...]", self.details["known"])
-        found = (nearest_name(name, known) for name in (written if isinstance(written, tuple) else (str(written),)))
+        names = dict.fromkeys(written if isinstance(written, tuple) else (str(written),))
+        found = dict.fromkeys(nearest_name(name, known) for name in names)
         return [name for name in found if name is not None]
 
     def __str__(self) -> str:

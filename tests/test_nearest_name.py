@@ -50,6 +50,7 @@ def test_a_sentence_suggests_a_name_for_each_unknown_one_that_has_a_near_one() -
     assert fault.sentence == (
         "there are no seats windwo, roof, ailse; available: window, aisle; did you mean 'window' and 'aisle'?"
     )
+    assert _NoSeats(seats=("windwo",) * 1000, known=known).sentence.endswith("did you mean 'window'?")
     assert _NoSeats(seats=("roof",), known=known).sentence.endswith("available: window, aisle")
 
 
