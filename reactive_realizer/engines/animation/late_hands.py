@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.joints import SIDES
@@ -12,6 +13,9 @@ from reactive_realizer.engines.animation.faults import HandLate
 
 NEAR = 0.02
 """Distance between the intended and the shown wrist above which a hand is late, m."""
+
+NEAR_POINTING = 0.01
+"""The same for a hand that points, m: from the shoulder, about a degree, half of what its finger may be off."""
 
 _SHOWN_WITHIN = 1.0
 """Time after which a point that no frame has shown is no longer watched, s: frames are not always made."""
@@ -58,5 +62,5 @@ class LateHands:
     def _late(self, unit: AnimationUnit, sync: str) -> Iterator[Warn]:
         for side, hand in _HANDS.items():
             gap = self._humanoid.gap(f"{side}_wrist") if f"{side}_shoulder" in unit.motion.joints else 0.0
-            if gap > NEAR:
+            if gap > (NEAR_POINTING if isinstance(unit.behavior, Pointing) else NEAR):
                 yield Warn(unit, HandLate(point=f"{unit.behavior.id}:{sync}", hand=hand, distance=100.0 * gap))
