@@ -92,7 +92,7 @@ async def test_without_it_a_character_does_only_what_it_is_asked_to_do(
         pilot.block("talk", say())
         await pilot.advance(10)
         assert lively(pilot) == []
-        assert np.ptp(head_angles(pilot), axis=0).max() < 1.5
+        assert np.ptp(head_angles(pilot), axis=0).max() < 3.0  # as an idle head moves
 
 
 async def test_what_is_asked_for_happens_at_the_same_times_with_and_without_it(options: Options) -> None:

@@ -198,10 +198,11 @@ def no_collection() -> Iterator[None]:
 
 
 async def test_a_client_that_vanishes_is_freed_without_a_collection(door: Doors, no_collection: None) -> None:
+    former = {id(each) for each in gc.get_objects() if isinstance(each, SocketClient)}
     async with door("clients = 1") as served:
         writer = await socket_of(served)
         freed = asyncio.Event()
-        clients = (each for each in gc.get_objects() if isinstance(each, SocketClient))
+        clients = (each for each in gc.get_objects() if isinstance(each, SocketClient) and id(each) not in former)
         references = [weakref.ref(each, lambda _: freed.set()) for each in clients]
         writer.transport.abort()
         await asyncio.wait_for(freed.wait(), 10)

@@ -16,6 +16,12 @@ _PER_UNIT = 1024.0
 _MIDDLE = 0.05
 """Vertices nearer than this share of the eyes' distance to the plane of symmetry are in the profile."""
 
+_BESIDE = 0.002
+"""Difference of height up to which points of a profile hide each other, m."""
+
+_SKIN = 0.004
+"""A point that lies deeper behind another one belongs to the inside of the mouth, m."""
+
 
 @dataclass(frozen=True, slots=True)
 class Fapu:
@@ -82,6 +88,7 @@ def _end_of_nose(
     """
     between = (vertices[:, 1] > mouth[1]) & (vertices[:, 1] < eyes[1]) & (vertices[:, 2] > mouth[2])
     profile = vertices[between & (np.abs(vertices[:, 0] - mouth[0]) < middle)][:, 1:]
+    profile = _outermost(profile)
     tip = profile[profile[:, 1].argmax()]
     below = profile[profile[:, 0] < tip[0]]
     lip = below[below[:, 0] < (tip[0] + mouth[1]) / 2.0]
@@ -90,3 +97,11 @@ def _end_of_nose(
     height, depth = tip - lip
     distances = (inside[:, 0] - lip[0]) * depth - (inside[:, 1] - lip[1]) * height
     return float(inside[distances.argmax(), 0])
+
+
+def _outermost(profile: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the points of a profile, height and depth (P, 2), m, without those behind others, such as teeth."""
+    heights, depths = profile.T
+    beside = np.abs(heights[:, None] - heights) < _BESIDE
+    front = np.where(beside, depths, -np.inf).max(axis=1)
+    return np.compress(depths > front - _SKIN, profile, axis=0)

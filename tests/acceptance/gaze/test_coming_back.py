@@ -27,7 +27,7 @@ async def test_the_head_returns_smoothly_to_a_continuing_gaze_when_a_shift_ends(
     end, shown = at(pilot, pilot.feedback.time("b:s:end")), pilot.bodies()
     before, turned, after = (sight(shown[number], "skullbase") for number in (at(pilot, 3.9), end, -1))
     assert between(before, turned) > 50
-    assert between(before, after) < 1
+    assert between(before, after) < 1.5  # an idle head moves by about a degree
     assert max(speeds(shown, "skullbase")[end - 2 : end + 4]) < 1
     assert max(speeds(shown, "skullbase")) < 6
     assert miss(shown[-1], left) < 0.5

@@ -36,7 +36,7 @@ async def test_hands_at_the_hips_touch_them(alternating: RealizerPilot, stance: 
     alternating.block("b", f'<postureShift id="s" start="0"><stance type="{stance}"/>{AKIMBO}</postureShift>')
     await alternating.advance(5)
     shown = alternating.bodies()[-1:]
-    assert -0.07 < deepest_in_legs(shown) < 0.02
+    assert -0.07 < deepest_in_legs(shown) < 0.025
     assert deepest_in_trunk(shown) < SOFT
 
 

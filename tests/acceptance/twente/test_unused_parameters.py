@@ -65,7 +65,10 @@ async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
         ('<posture id="x"><stance type="SITTING"/>{}</posture>', "replacementgroup"),
         ('<bmlt:procanimation id="x" name="swing">{}</bmlt:procanimation>', "a, file"),
         ('<bmlt:procanimationgesture id="x" name="swing">{}</bmlt:procanimationgesture>', "a, amount, file"),
-        ('<bmlt:keyframe id="x" name="wave">{}</bmlt:keyframe>', "file, filter, joints, mirror, name"),
+        (
+            '<bmlt:keyframe id="x" name="wave">{}</bmlt:keyframe>',
+            "fadeIn, fadeOut, file, filter, group, joints, mirror, name",
+        ),
         ('<bmlt:noise id="x" type="perlin" joint="vl5">{}</bmlt:noise>', "baseamplitudex, baseamplitudey"),
         ('<bmlt:transition id="x" class="SlerpTransition">{}</bmlt:transition>', "class, joints, replacementgroup"),
     ],

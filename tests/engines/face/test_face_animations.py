@@ -60,7 +60,7 @@ async def test_a_sync_point_of_a_file_can_be_tied_and_stretches_the_rows_around_
     ("kind", "parts", "row", "expected"),
     [
         ("FACS", "12.LEFT 2", "0.8 0.5", {"mouthSmileLeft": 0.8, "mouthSmileRight": 0, "browOuterUpRight": 0.5}),
-        ("FAPS", "12 raise_r_cornerlip 23", "455 455 0", {"mouthSmileLeft": 0.5, "mouthSmileRight": 0.5}),
+        ("FAPS", "12 raise_r_cornerlip 23", "440 440 0", {"mouthSmileLeft": 0.5, "mouthSmileRight": 0.5}),
         ("MORPH", "cheekPuff", "0.7", {"cheekPuff": 0.7, "mouthSmileLeft": 0}),
     ],
 )
