@@ -100,7 +100,7 @@ class _Writer:
 
 
 def _is_draft(behavior: Behavior) -> bool:
-    """Whether only a draft can write a behavior: a gaze or posture that persists."""
+    """Return whether a behavior can be written only in a draft of BML, such as a gaze that persists."""
     return behavior.persistent and not isinstance(behavior, Controller) and bool(behavior.source)
 
 

@@ -68,12 +68,12 @@ class Element:
 
     @property
     def core(self) -> bool:
-        """Whether the element belongs to BML 1.0 or its core extensions."""
+        """True for an element of BML 1.0 or of its core extensions."""
         return self.namespace in (BML, BML_EXT)
 
     @property
     def continuous(self) -> bool:
-        """Whether the element belongs to BMLA or BMLT, the extensions for continuous interaction."""
+        """True for an element of BMLA or BMLT, the extensions for continuous interaction."""
         return self.namespace in CONTINUOUS
 
     @property

@@ -6,7 +6,7 @@ from typing import Any
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import DuplicateId, MissingElement, PoseTooEarly
-from reactive_realizer.bml.key_poses import GOALS, Goal, KeyPose, KeyPoses
+from reactive_realizer.bml.key_poses import GOALS, KeyPose, KeyPoseGoal, KeyPoses
 from reactive_realizer.bml.trees import Tree, children_of, name_of
 from reactive_realizer.errors import Fault, RealizerError
 
@@ -41,7 +41,7 @@ def _key_pose(tree: Tree, poses: Sequence[KeyPose], source: BlockSource, notes: 
     earliest = 0.0 if last is None else last.time + last.hold
     if values["time"] < earliest:
         raise RealizerError(source.located(tree, PoseTooEarly(time=values["time"], earliest=earliest)))
-    goals: list[Goal] = []
+    goals: list[KeyPoseGoal] = []
     for child in children_of(tree, *_GOALS):
         try:
             goals.append(_goal(child, source, notes))
@@ -53,7 +53,7 @@ def _key_pose(tree: Tree, poses: Sequence[KeyPose], source: BlockSource, notes: 
     return KeyPose(**values, goals=tuple(goals), location=source.location(tree))
 
 
-def _goal(tree: Tree, source: BlockSource, notes: list[Fault]) -> Goal:
+def _goal(tree: Tree, source: BlockSource, notes: list[Fault]) -> KeyPoseGoal:
     kind = _GOALS[name_of(tree)]
     attributes = attributes_of(kind)
     notes += source.unknown_content(tree, [each.name for each in attributes])

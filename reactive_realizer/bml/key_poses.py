@@ -104,10 +104,10 @@ class PoseGoal:
     location: Location = field(compare=False)
 
 
-Goal = PositionGoal | OrientationGoal | SwivelGoal | LookAtGoal | PoseGoal
-"""What a key pose requires."""
+KeyPoseGoal = PositionGoal | OrientationGoal | SwivelGoal | LookAtGoal | PoseGoal
+"""A requirement of a key pose: a position, an orientation, a swivel, a direction or a stored pose."""
 
-GOALS: tuple[type[Goal], ...] = (PositionGoal, OrientationGoal, SwivelGoal, LookAtGoal, PoseGoal)
+GOALS: tuple[type[KeyPoseGoal], ...] = (PositionGoal, OrientationGoal, SwivelGoal, LookAtGoal, PoseGoal)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -131,7 +131,7 @@ class KeyPose:
     id: str | None = field(default=None, metadata=attribute(Id()))
     warp: WarpKind | None = field(default=None, metadata=attribute(Enumeration(WarpKind)))
     steepness: float = field(default=1.0, metadata=attribute(Float(*STEEPNESS)))
-    goals: tuple[Goal, ...]
+    goals: tuple[KeyPoseGoal, ...]
     location: Location = field(compare=False)
 
 

@@ -13,7 +13,7 @@ _LARGEST_WEIGHT = 10.0
 _PERCENT = 100.0
 
 
-class Target(NamedTuple):
+class MorphTarget(NamedTuple):
     """A morph target: the index of its mesh in the file, and its own in the mesh."""
 
     mesh: int
@@ -31,7 +31,7 @@ class MorphTargets:
         notes: what is wrong with expressions, as sentences.
     """
 
-    named: Mapping[str, tuple[Target, ...]] = field(default_factory=dict)
+    named: Mapping[str, tuple[MorphTarget, ...]] = field(default_factory=dict)
     unnamed: frozenset[str] = frozenset()
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
@@ -49,18 +49,18 @@ def morph_targets_of(scene: Mapping[str, Any]) -> MorphTargets:
         LookupError, TypeError, AttributeError: the meshes are not valid glTF.
     """
     meshes: Sequence[Mapping[str, Any]] = scene.get("meshes", ())
-    names = {Target(i, k): name for i, mesh in enumerate(meshes) for k, name in enumerate(_names(mesh, i))}
+    names = {MorphTarget(i, k): name for i, mesh in enumerate(meshes) for k, name in enumerate(_names(mesh, i))}
     if len(names) > _MOST:
         raise ValueError(f"it has more than {_MOST} morph targets")
     expressions = _Expressions(scene, names)
     names |= _split(names, [*expressions.bound.values()], meshes)
-    named: defaultdict[str, list[Target]] = defaultdict(list)
+    named: defaultdict[str, list[MorphTarget]] = defaultdict(list)
     for target, name in names.items():
         named[name].append(target)
-    found: defaultdict[str, list[Target]] = defaultdict(list)
+    found: defaultdict[str, list[MorphTarget]] = defaultdict(list)
     for i, mesh in enumerate(meshes):
         for k, name in enumerate(_listed(mesh)):
-            found[name].append(Target(i, k))
+            found[name].append(MorphTarget(i, k))
     weights = {
         name: {names[target]: weight for target, weight in bound.items()} for name, bound in expressions.bound.items()
     }
@@ -88,8 +88,8 @@ def _names(mesh: Mapping[str, Any], index: int) -> list[str]:
 
 
 def _split(
-    names: Mapping[Target, str], bound: Sequence[Mapping[Target, float]], meshes: Sequence[Mapping[str, Any]]
-) -> dict[Target, str]:
+    names: Mapping[MorphTarget, str], bound: Sequence[Mapping[MorphTarget, float]], meshes: Sequence[Mapping[str, Any]]
+) -> dict[MorphTarget, str]:
     """Return other names for targets of one name that an expression does not move together."""
     sizes = Counter(names.values())
     apart = set()
@@ -113,10 +113,10 @@ class _Expressions:
         notes: what is left out.
     """
 
-    def __init__(self, scene: Mapping[str, Any], names: Mapping[Target, str]) -> None:
+    def __init__(self, scene: Mapping[str, Any], names: Mapping[MorphTarget, str]) -> None:
         self._nodes, self._meshes = scene.get("nodes", ()), scene.get("meshes", ())
         self._names = names
-        self.bound: dict[str, dict[Target, float]] = {}
+        self.bound: dict[str, dict[MorphTarget, float]] = {}
         self.notes: list[str] = []
         for name, entry, version in self._entries(scene.get("extensions") or {}):
             try:
@@ -141,10 +141,10 @@ class _Expressions:
         if name in self.bound:
             self.notes.append(f"there are two expressions '{name}'; the first is used")
             return
-        bound: dict[Target, float] = {}
+        bound: dict[MorphTarget, float] = {}
         for bind in entry.get("morphTargetBinds" if version else "binds") or ():
             place = self._nodes[bind["node"]].get("mesh", -1) if version else bind["mesh"]
-            target = Target(int(place), int(bind["index"]))
+            target = MorphTarget(int(place), int(bind["index"]))
             weight = float(bind.get("weight", 1.0)) / (1.0 if version else _PERCENT)
             if target not in self._names:
                 self.notes.append(f"the expression '{name}' moves {self._missing(target)}; this is left out")
@@ -155,7 +155,7 @@ class _Expressions:
         if bound:
             self.bound[name] = bound
 
-    def _missing(self, target: Target) -> str:
+    def _missing(self, target: MorphTarget) -> str:
         if not 0 <= target.mesh < len(self._meshes):
             return f"mesh {target.mesh}, which does not exist"
         name = self._meshes[target.mesh].get("name") or target.mesh

@@ -9,9 +9,13 @@ from typing import Final, Protocol, runtime_checkable
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.clock.units import RESOLUTION
-from reactive_realizer.engine.punctuation import DASHES, STOPS
 from reactive_realizer.planunit.parameter import Range
 
+SENTENCE_ENDS: Final = ".!?\u2026"
+DASHES: Final = "\u2013\u2014"
+CLAUSE_ENDS: Final = ",;:" + DASHES
+"""The marks that end a clause within a sentence."""
+STOPS: Final = SENTENCE_ENDS + CLAUSE_ENDS
 _BETWEEN_SPACES: Final = re.compile(rf"[^\s{DASHES}]+")
 """The text between white space and dashes."""
 _PUNCTUATION: Final = ".,;:!?\u2026\"'()[]{}\u00ab\u00bb\u201c\u201d\u201e\u2018\u2019\u00a1\u00bf"

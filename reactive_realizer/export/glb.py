@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.glb import read_binary, write_binary
-from reactive_realizer.embodiment.morph_targets import Target
+from reactive_realizer.embodiment.morph_targets import MorphTarget
 from reactive_realizer.embodiment.rig import Bone, place_above
 from reactive_realizer.export.recorded_motion import RecordedMotion, file_of
 
@@ -84,7 +84,9 @@ class _Animated:
         sizes = [len(mesh["primitives"][0].get("targets", ())) for mesh in self._scene.get("meshes", ())]
         shown = [(i, node["mesh"]) for i, node in enumerate(self._scene["nodes"]) if sizes and "mesh" in node]
         return [
-            (i, weights[:, [places[Target(mesh, k)] for k in range(sizes[mesh])]]) for i, mesh in shown if sizes[mesh]
+            (i, weights[:, [places[MorphTarget(mesh, k)] for k in range(sizes[mesh])]])
+            for i, mesh in shown
+            if sizes[mesh]
         ]
 
     def _channel(self, times: int, node: int, path: str, values: int) -> None:

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.engine.phonetics import PRIMARY_STRESS, SECONDARY_STRESS
-from reactive_realizer.engine.punctuation import CLAUSE_ENDS, SENTENCE_ENDS
 from reactive_realizer.engine.sound_unit import SoundPart
-from reactive_realizer.engine.tts import Phoneme, Utterance
+from reactive_realizer.engine.tts import CLAUSE_ENDS, SENTENCE_ENDS, Phoneme, Utterance
 from reactive_realizer.liveliness.pitch import STEP, pitches
 
 MOST_WORDS: Final = 9

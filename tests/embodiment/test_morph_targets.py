@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from reactive_realizer.embodiment.morph_targets import Target, morph_targets_of
+from reactive_realizer.embodiment.morph_targets import MorphTarget, morph_targets_of
 
 
 def mesh(name: str, *targets: str, where: str = "mesh") -> dict[str, Any]:
@@ -29,14 +29,14 @@ def vrm_1(preset: dict[str, Any], custom: dict[str, Any]) -> dict[str, Any]:
 
 def test_targets_of_one_name_move_together_and_a_loader_finds_them() -> None:
     found = morph_targets_of({"meshes": [mesh("Head", "jawOpen", "mouthClose"), mesh("Teeth", "jawOpen")]})
-    assert found.named == {"jawOpen": (Target(0, 0), Target(1, 0)), "mouthClose": (Target(0, 1),)}
+    assert found.named == {"jawOpen": (MorphTarget(0, 0), MorphTarget(1, 0)), "mouthClose": (MorphTarget(0, 1),)}
     assert not found.unnamed
 
 
 @pytest.mark.parametrize("where", ["primitive", "target"])
 def test_names_that_a_loader_does_not_read_are_read_too(where: str) -> None:
     found = morph_targets_of({"meshes": [mesh("Head", "A", "I", where=where)]})
-    assert found.named == {"A": (Target(0, 0),), "I": (Target(0, 1),)}
+    assert found.named == {"A": (MorphTarget(0, 0),), "I": (MorphTarget(0, 1),)}
     assert found.unnamed == {"A", "I"}
 
 
@@ -64,7 +64,7 @@ def test_expressions_of_vrm_1_bind_the_meshes_of_nodes() -> None:
 def test_targets_that_an_expression_moves_apart_have_names_of_their_own() -> None:
     group = {"presetName": "a", "binds": [{"mesh": 1, "index": 0, "weight": 100}]}
     found = morph_targets_of({"meshes": [mesh("Body", "x"), mesh("Face", "x")], "extensions": vrm_0(group)})
-    assert found.named == {"Body.x": (Target(0, 0),), "Face.x": (Target(1, 0),)}
+    assert found.named == {"Body.x": (MorphTarget(0, 0),), "Face.x": (MorphTarget(1, 0),)}
     assert found.expressions == {"aa": {"Face.x": 1.0}}
     assert found.unnamed == {"Body.x", "Face.x"}
 

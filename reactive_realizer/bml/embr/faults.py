@@ -3,7 +3,7 @@
 from reactive_realizer.errors import ParsingFault
 
 
-class UnknownWord(ParsingFault):
+class UnknownScriptWord(ParsingFault):
     """A word that the language does not have where it stands."""
 
     code = "embr-unknown-word"

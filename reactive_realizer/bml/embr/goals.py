@@ -9,7 +9,7 @@ from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.embr.words import JOINTS
 from reactive_realizer.bml.key_poses import (
     Coordinates,
-    Goal,
+    KeyPoseGoal,
     LookAtGoal,
     OrientationGoal,
     PoseGoal,
@@ -33,7 +33,7 @@ _HEAD_AXES: Final[Mapping[str, BodyAxis]] = {
 }
 
 
-def read_goal(node: Node, notes: Notes) -> Goal:
+def read_goal(node: Node, notes: Notes) -> KeyPoseGoal:
     """The goal of a constraint on the skeleton.
 
     Raises:
@@ -42,12 +42,12 @@ def read_goal(node: Node, notes: Notes) -> Goal:
     return _READERS[node.name](node, notes)
 
 
-def _position(node: Node, notes: Notes) -> Goal:
+def _position(node: Node, notes: Notes) -> KeyPoseGoal:
     target, offset = notes.vector(node, "TARGET"), notes.vector(node, "OFFSET", (0.0, 0.0, 0.0))
     return PositionGoal(target=target, joint=_joint(node), offset=offset, location=node.location)
 
 
-def _orientation(node: Node, notes: Notes) -> Goal:
+def _orientation(node: Node, notes: Notes) -> KeyPoseGoal:
     """The direction of a hand or head.
 
     Some scripts write a vector as NORMAL: the direction of the palm, as DIRECTION without a NORMAL is.
@@ -58,7 +58,7 @@ def _orientation(node: Node, notes: Notes) -> Goal:
     return _directed(node, notes.vector(node, "DIRECTION"), normal and normal.text)
 
 
-def _directed(node: Node, direction: Coordinates, axis: str | None) -> Goal:
+def _directed(node: Node, direction: Coordinates, axis: str | None) -> KeyPoseGoal:
     joint = _joint(node) or ""
     if joint.startswith(("skullbase", "vc")):
         known: Mapping[str, tuple[BodyAxis, float]] = {name: (each, 1.0) for name, each in _HEAD_AXES.items()}
@@ -78,20 +78,20 @@ def _directed(node: Node, direction: Coordinates, axis: str | None) -> Goal:
     return OrientationGoal(direction=(x, y, z), axis=name, location=node.location)
 
 
-def _swivel(node: Node, notes: Notes) -> Goal:
+def _swivel(node: Node, notes: Notes) -> KeyPoseGoal:
     return SwivelGoal(angle=notes.number(node, "SWIVEL_ANGLE", low=-180.0, high=180.0), location=node.location)
 
 
-def _look_at(node: Node, notes: Notes) -> Goal:
+def _look_at(node: Node, notes: Notes) -> KeyPoseGoal:
     return LookAtGoal(target=notes.vector(node, "TARGET"), location=node.location)
 
 
-def _pose(node: Node, notes: Notes) -> Goal:
+def _pose(node: Node, notes: Notes) -> KeyPoseGoal:
     influence = notes.number(node, "INFLUENCE", 1.0, 0.0, 1.0)
     return PoseGoal(pose=notes.text(node, "POSE_KEY"), influence=influence, location=node.location)
 
 
-_READERS: Final[Mapping[str, Callable[[Node, Notes], Goal]]] = {
+_READERS: Final[Mapping[str, Callable[[Node, Notes], KeyPoseGoal]]] = {
     POSITION: _position,
     ORIENTATION: _orientation,
     SWIVEL: _swivel,

@@ -16,7 +16,7 @@ from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.embr.words import AUTONOMOUS_KEYS, MORPHS, SHADERS, Expression
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
 from reactive_realizer.bml.idle_change import IdleChange
-from reactive_realizer.bml.key_poses import Goal, KeyPose, KeyPoses
+from reactive_realizer.bml.key_poses import KeyPose, KeyPoseGoal, KeyPoses
 from reactive_realizer.bml.names import BMLT, OWN, Location, is_sync_id
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.time_warps import warped
@@ -32,7 +32,7 @@ Warped = tuple[WarpKind | None, float]
 
 
 class _Step(NamedTuple):
-    """What one key pose asks of one body group or weight.
+    """The part of a key pose that concerns one body group or one weight.
 
     Attributes:
         at: its times.
@@ -45,7 +45,7 @@ class _Step(NamedTuple):
 
     at: Timed
     value: float
-    goals: tuple[Goal, ...]
+    goals: tuple[KeyPoseGoal, ...]
     id: str | None
     warp: Warped
     place: Location
@@ -123,7 +123,7 @@ class SequenceReader:
         if "NUCLEUS" in at.node.values:
             place = at.node.values["NUCLEUS"].location
             self._notes.left_out("NUCLEUS", "the expressivity of poses is not changed", place)
-        groups: dict[BodyGroup, list[tuple[Node, Goal]]] = {}
+        groups: dict[BodyGroup, list[tuple[Node, KeyPoseGoal]]] = {}
         for constraint in at.node.children:
             try:
                 if constraint.name in GOALS:

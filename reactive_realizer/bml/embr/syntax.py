@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from reactive_realizer.bml.embr.faults import NotAStatement, StrayEnd, Unclosed, UnknownWord
+from reactive_realizer.bml.embr.faults import NotAStatement, StrayEnd, Unclosed, UnknownScriptWord
 from reactive_realizer.bml.names import Location
 from reactive_realizer.errors import Fault, quoted
 
@@ -152,7 +152,7 @@ class _NodeReader:
         known = CHILDREN.get(parent.name, ())
         if self._unknown or token.text not in known:
             if not self._unknown:
-                self._fault(UnknownWord(word=token.text, parent=parent.name, known=known), token.location)
+                self._fault(UnknownScriptWord(word=token.text, parent=parent.name, known=known), token.location)
             self._unknown += 1
             return
         node = Node(token.text, token.location)
@@ -176,7 +176,7 @@ class _NodeReader:
         if name in known:
             node.values[name] = Value(value, token.location)
         else:
-            self._fault(UnknownWord(word=name, parent=node.name, known=known), token.location)
+            self._fault(UnknownScriptWord(word=name, parent=node.name, known=known), token.location)
 
     def _fault(self, fault: Fault, location: Location) -> None:
         self.faults.append(fault.located(location.line, location.column))

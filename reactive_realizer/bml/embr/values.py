@@ -74,7 +74,10 @@ class Notes:
         return _MS * self.number(node, name, written, 0.0, self._longest / _MS)
 
     def moment(self, node: Node, name: str) -> tuple[bool, float]:
-        """Whether a time of a parameter is relative (``+200``), and the time, s.
+        """Read the time of a parameter.
+
+        Returns:
+            True for a relative time (``+200``), and the time, s.
 
         Raises:
             RealizerError: as `number`.

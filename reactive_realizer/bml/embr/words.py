@@ -54,10 +54,10 @@ SHADERS: Final[Mapping[str, str]] = MappingProxyType(
 
 
 class Expression(NamedTuple):
-    """What a morph target of EMBR's characters looks like.
+    """The expression that stands for a morph target of EMBR's characters.
 
     Attributes:
-        type: what its parts are.
+        type: of its parts.
         parts: action unit or morph target -> its weight in it.
     """
 

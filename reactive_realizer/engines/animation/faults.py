@@ -163,7 +163,7 @@ class HandLate(PlayingFault):
     code = "hand-late"
     template = (
         "at {point} the {hand} hand is {distance:.0f} cm away from where it should be, "
-        "because it cannot move as fast as its motions ask"
+        "because its motions leave it too little time"
     )
     point: str
     hand: str

@@ -8,7 +8,9 @@ from typing import Protocol, runtime_checkable
 
 from reactive_realizer.binding.asset_file import first_asset, parse_boolean
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.embodiment.feet import walks
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.vector import Vec3
@@ -43,6 +45,11 @@ class MakerContext:
     functions: Mapping[str, Function]
     character: str
     place: Callable[[], Place]
+
+    @property
+    def can_step(self) -> bool:
+        """True if the figure stands on two feet when the behavior that is being planned starts."""
+        return self.rest.expected.stance is StanceType.STANDING and walks(self.humanoid.avatar.skeleton)
 
     def file_of(self, request: "MotionRequest", *suffixes: str) -> Path:
         """Return the requested file, or the asset that has the requested name and one of the suffixes.

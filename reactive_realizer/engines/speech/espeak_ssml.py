@@ -8,7 +8,7 @@ from typing import Final
 from xml.sax.saxutils import escape, quoteattr
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
-from reactive_realizer.engine.punctuation import STOPS
+from reactive_realizer.engine.tts import STOPS
 
 FOLLOWED: Final = frozenset(MarkupKind) - {MarkupKind.PHONEME, MarkupKind.OTHER}
 """The kinds of markup that espeak-ng follows; for voices and languages, only those that it has."""

@@ -4,8 +4,7 @@ from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
-from reactive_realizer.engine.punctuation import CLAUSE_ENDS, SENTENCE_ENDS
-from reactive_realizer.engine.tts import Utterance, VoiceCapabilities, Word, word_spans
+from reactive_realizer.engine.tts import CLAUSE_ENDS, SENTENCE_ENDS, Utterance, VoiceCapabilities, Word, word_spans
 
 _CHARACTER = 0.06
 """Duration of a character, s; with five letters and a space a word, about 170 words a minute (espeak-ng: 175)."""

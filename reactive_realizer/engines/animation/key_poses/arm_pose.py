@@ -73,7 +73,7 @@ class SolvedArm(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class ArmPose:
+class ArmGoals:
     """The goals of one arm.
 
     Attributes:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.two_bone_ik import Arm
-from reactive_realizer.engines.animation.key_poses.arm_pose import ArmPose
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals
 from reactive_realizer.engines.animation.key_poses.head_pose import HeadPose
 
 
@@ -25,7 +25,7 @@ class Missed(NamedTuple):
     share: float
 
 
-class Solution(NamedTuple):
+class SolvedRotations(NamedTuple):
     """The rotations of a key pose.
 
     Attributes:
@@ -52,7 +52,7 @@ class SolvedPose:
 
     stored: Mapping[str, Quat] = field(default_factory=dict)
     influence: float = 1.0
-    arm: ArmPose | None = None
+    arm: ArmGoals | None = None
     head: HeadPose | None = None
 
     @property
@@ -61,7 +61,7 @@ class SolvedPose:
         parts = (self.stored, self.arm.joints if self.arm else (), self.head.joints if self.head else ())
         return frozenset(joint for part in parts for joint in part)
 
-    def solve(self, body: Body, rest: Mapping[str, Quat]) -> Solution:
+    def solve(self, body: Body, rest: Mapping[str, Quat]) -> SolvedRotations:
         """Return the rotations of its joints.
 
         Args:
@@ -79,4 +79,4 @@ class SolvedPose:
             if solved.missing > 0.0:
                 reach = Arm.of(body.skeleton, self.arm.side).reach
                 missed = Missed(end, solved.missing, solved.missing / reach)
-        return Solution(rotations, missed)
+        return SolvedRotations(rotations, missed)

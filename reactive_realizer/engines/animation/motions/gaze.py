@@ -11,10 +11,9 @@ from reactive_realizer.binding.asset_file import parse_boolean
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Gaze, GazeShift, HeadDirectionShift
 from reactive_realizer.bml.names import BMLT
-from reactive_realizer.bml.vocabulary import Influence, StanceType
+from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.feet import walks
 from reactive_realizer.embodiment.joints import TRUNK
 from reactive_realizer.embodiment.place import heading_of
 from reactive_realizer.embodiment.pose import LayerKind
@@ -36,7 +35,7 @@ from reactive_realizer.engines.animation.motion_parameters import parameter_valu
 from reactive_realizer.engines.animation.motion_unit import START_TO_END, Moment, MotionPose, MotionUnit, Resource
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import lag, turning_time
-from reactive_realizer.engines.animation.walking.manner import stepping_time
+from reactive_realizer.engines.animation.walking.manner import stepping_time, turn_of_feet
 from reactive_realizer.errors import RealizerError
 
 
@@ -95,9 +94,6 @@ Attention, Perception, & Psychophysics 86, 2024).
 
 _STEPS_FROM = math.radians(60.0)
 """Angle aside up to which the feet stay in place, rad."""
-
-_LEFT_TO_JOINTS = math.radians(30.0)
-"""Angle that the feet leave to the joints, rad."""
 
 
 class GazeMotionUnit(MotionUnit):
@@ -184,7 +180,7 @@ class GazeMotionUnit(MotionUnit):
         missing = head_turn_toward(self._rest.body, self._rest.pose, target.point, self.parameters).missing
         if missing is None or missing <= _TOLERANCE:
             return 0.0
-        return math.copysign(abs(bearing) - _LEFT_TO_JOINTS, bearing)
+        return turn_of_feet(bearing)
 
     def _shortest(self, expected: GazeTarget, stepping: float) -> dict[str, float]:
         """Return the shortest durations of the turn from rest to the expected target, and of the turn back, s.
@@ -328,8 +324,7 @@ def _may_step(context: MakerContext, weights: Mapping[str, float], target: str) 
     """Return whether a figure can turn on its feet for a gaze: not for one of the eyes alone, or at its own body."""
     if target.partition(":")[0] == context.character:
         return False
-    stands = context.rest.expected.stance is StanceType.STANDING and walks(context.humanoid.avatar.skeleton)
-    return stands and any(weights.get(group, 0.0) > 0.0 for group in JOINT_GROUPS)
+    return context.can_step and any(weights.get(group, 0.0) > 0.0 for group in JOINT_GROUPS)
 
 
 def _follows(behavior: Behavior) -> bool:

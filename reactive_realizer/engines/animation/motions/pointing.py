@@ -6,10 +6,9 @@ from contextlib import suppress
 from types import MappingProxyType
 
 from reactive_realizer.bml.behaviors import Pointing
-from reactive_realizer.bml.vocabulary import Mode, StanceType
+from reactive_realizer.bml.vocabulary import Mode
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.feet import walks
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.place import Place, between_headings, heading_of
 from reactive_realizer.embodiment.pose import LayerKind
@@ -28,15 +27,12 @@ from reactive_realizer.engines.animation.motions.reaching import (
     shortest_phases,
     sigmoid_profile,
 )
-from reactive_realizer.engines.animation.walking.manner import stepping_time
+from reactive_realizer.engines.animation.walking.manner import stepping_time, turn_of_feet
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.parameter import Range, spelled
 
 _BEHIND = math.radians(90.0)
 """Angle aside from which on the feet turn the figure to a target that its arms do not reach, rad."""
-
-_LEFT_TO_ARMS = math.radians(30.0)
-"""Angle that the feet leave to the arms, rad."""
 
 _FACED = math.radians(1.0)
 """A smaller turn that is left is done, rad."""
@@ -212,14 +208,13 @@ class PointingMaker:
     def _facing(self, target: TargetLocator, sides: str | None) -> Facing | None:
         """Return the turn of the feet toward a target that is behind the arms that have to point; None if they stay."""
         context, arms = self._context, [self._arm[side] for side in sides or SIDES]
-        stands = context.rest.expected.stance is StanceType.STANDING and walks(context.humanoid.avatar.skeleton)
-        if not stands or any(arm.missing for arm in arms):
+        if not context.can_step or any(arm.missing for arm in arms):
             return None
         reached = [arm.aim(context.rest.body, target()).fault is None for arm in arms]
         x, _, z = target()
         if (all(reached) if sides else any(reached)) or abs(bearing := heading_of(x, z)) < _BEHIND:
             return None
-        return Facing(lambda: context.humanoid.place, math.copysign(abs(bearing) - _LEFT_TO_ARMS, bearing))
+        return Facing(lambda: context.humanoid.place, turn_of_feet(bearing))
 
     def _free(self, behavior: Pointing, target: TargetLocator) -> Sequence[PointingArm]:
         """Return the arm on the side of the target, or the other one if that one cannot point there."""

@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import Final
 
 from reactive_realizer.binding.asset_file import first_asset
-from reactive_realizer.bml.key_poses import Goal, LookAtGoal, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
+from reactive_realizer.bml.key_poses import KeyPoseGoal, LookAtGoal, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import other_side
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.vector import Vec3, add, length, subtract, unit
 from reactive_realizer.engines.animation.faults import NoDirection, NotOfGroup
-from reactive_realizer.engines.animation.key_poses.arm_pose import ArmPose, Direction, hand_axes
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, Direction, hand_axes
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
 from reactive_realizer.engines.animation.key_poses.head_pose import HEAD_AXES, WEIGHTS, HeadPose
 from reactive_realizer.engines.animation.key_poses.solved_pose import SolvedPose
@@ -57,7 +57,7 @@ class PoseGoals:
         """The sentences of the notes."""
         return tuple(fault.sentence for fault in self.notes)
 
-    def solved(self, goals: Iterable[Goal]) -> SolvedPose | None:
+    def solved(self, goals: Iterable[KeyPoseGoal]) -> SolvedPose | None:
         """Return the pose that meets goals; None if the figure can meet none of them."""
         met = [goal for goal in goals if self._is_met(goal)]
         if not met:
@@ -70,7 +70,7 @@ class PoseGoals:
         head = self._head(others) if self._group in WEIGHTS and others else None
         return SolvedPose(rotations, influence, arm, head)
 
-    def _is_met(self, goal: Goal) -> bool:
+    def _is_met(self, goal: KeyPoseGoal) -> bool:
         """Return whether the figure can meet a goal; otherwise, note why not."""
         try:
             self._check(goal)
@@ -80,7 +80,7 @@ class PoseGoals:
             return False
         return True
 
-    def _check(self, goal: Goal) -> None:
+    def _check(self, goal: KeyPoseGoal) -> None:
         """Check that the figure can meet a goal.
 
         Raises:
@@ -122,7 +122,7 @@ class PoseGoals:
             hand = tuple(each for each in known if f"{self._side}_wrist" in self._skeleton.chain(each))
             raise RealizerError(NotOfGroup(goal=f"position of {joint}", group=self._group, known=hand))
 
-    def _arm(self, goals: Iterable[Goal]) -> ArmPose:
+    def _arm(self, goals: Iterable[KeyPoseGoal]) -> ArmGoals:
         """Return the goals of an arm; without a place, the hand keeps the last one."""
         side, axes = self._side or "r", self._axes()
         directions: list[Direction] = []
@@ -139,7 +139,7 @@ class PoseGoals:
                     pass
         if swivel is not None and self._place is None:
             self._place = self._rest_place(side)
-        return ArmPose(side, self._place, self._tip, tuple(directions), swivel or 0.0)
+        return ArmGoals(side, self._place, self._tip, tuple(directions), swivel or 0.0)
 
     def _rest_place(self, side: str) -> Vec3:
         """Return where the wrist is at rest, from the pelvis, m."""
@@ -154,7 +154,7 @@ class PoseGoals:
         from_joint = rotate(multiply(back, joint.rotation), goal.offset)
         return add(rotate(back, subtract(joint.position, wrist.position)), from_joint)
 
-    def _head(self, goals: Iterable[Goal]) -> HeadPose:
+    def _head(self, goals: Iterable[KeyPoseGoal]) -> HeadPose:
         place: Vec3 | None = None
         directions: list[Direction] = []
         for goal in goals:

@@ -77,6 +77,15 @@ def turning_time(angle: float) -> float:
     return max(0.0, abs(angle) - _ASIDE) / TURNING
 
 
+_LEFT_TO_JOINTS = math.radians(30.0)
+"""Angle to a target that the feet leave to the joints, rad."""
+
+
+def turn_of_feet(bearing: float) -> float:
+    """Return how far the feet turn a figure toward a target that its joints do not reach, both rad to the left."""
+    return math.copysign(max(0.0, abs(bearing) - _LEFT_TO_JOINTS), bearing)
+
+
 class SteppingTime(NamedTuple):
     """The duration of a turn on the spot, s; 0 for none.
 

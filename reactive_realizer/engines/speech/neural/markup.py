@@ -8,7 +8,7 @@ from typing import Final
 
 from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.engine.phonetics import STRESS
-from reactive_realizer.engine.punctuation import STOPS
+from reactive_realizer.engine.tts import STOPS
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 from reactive_realizer.engines.speech.neural.pronunciation import Alphabet
 

@@ -6,7 +6,7 @@ from typing import Protocol
 from unicodedata import normalize
 
 from reactive_realizer.engine.phonetics import STRESS
-from reactive_realizer.engine.punctuation import CLAUSE_ENDS, SENTENCE_ENDS
+from reactive_realizer.engine.tts import CLAUSE_ENDS, SENTENCE_ENDS
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 
 _MOST_TOKENS = 510
