@@ -58,7 +58,7 @@ class Course(NamedTuple):
         return Course([*self.times, *other.times[1:]], [*self.positions, *other.positions[1:]])
 
 
-class Pace(NamedTuple):
+class StretchLimits(NamedTuple):
     """How a speech can be stretched.
 
     Attributes:

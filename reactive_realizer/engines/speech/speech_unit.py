@@ -14,7 +14,7 @@ from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engine.sound_unit import SoundUnit
 from reactive_realizer.engine.tts import PITCH_RANGE, RATE_RANGE, Utterance
 from reactive_realizer.engines.speech.spoken_utterance import SpokenUtterance
-from reactive_realizer.engines.speech.stretched_utterance import StretchedUtterance, border_after, pace_of
+from reactive_realizer.engines.speech.stretched_utterance import StretchedUtterance, border_after, stretch_limits
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -298,12 +298,12 @@ class SpeechUnit(SoundUnit):
     def _loosened(self, count: int) -> Timing:
         """A timing of which some phases, the first ones, can be stretched within limits; the others are as planned."""
         utterance = self._heard_as.utterance
-        pace, spoken = pace_of(utterance), self._ordered(utterance)
+        limits, spoken = stretch_limits(utterance), self._ordered(utterance)
         phases = list(timing_at(self._ordered(self.utterance), PhaseKind.RIGID).phases)
         for k, (begin, end) in enumerate(pairwise([*spoken.values()][: count + 1])):
-            pauses = sum(1 for each in pace.pauses if begin < each <= end)
-            longest = pace.most * (end - begin) + _LONGEST_PAUSE * pauses
-            elastic = Phase(end - begin, maximum=longest, shortest=pace.least * (end - begin))
+            pauses = sum(1 for each in limits.pauses if begin < each <= end)
+            longest = limits.most * (end - begin) + _LONGEST_PAUSE * pauses
+            elastic = Phase(end - begin, maximum=longest, shortest=limits.least * (end - begin))
             phases[k] = elastic if end > begin else Phase(0.0, PhaseKind.RIGID)
         return Timing(tuple(spoken), tuple(phases))
 

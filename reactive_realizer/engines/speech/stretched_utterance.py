@@ -12,7 +12,7 @@ from reactive_realizer.clock.units import RESOLUTION
 from reactive_realizer.embodiment.audio import Sound
 from reactive_realizer.engine.sound_unit import SoundPart
 from reactive_realizer.engine.tts import STRETCH, Utterance
-from reactive_realizer.engines.speech.course import REACH, Course, Pace
+from reactive_realizer.engines.speech.course import REACH, Course, StretchLimits
 from reactive_realizer.engines.speech.time_scale import TimeScale
 
 _PAUSE: Final = 0.1
@@ -38,7 +38,7 @@ class StretchedUtterance:
     Attributes:
         utterance: as the voice speaks it.
         pitch: of what is made next, a factor.
-        pace: how it can be stretched.
+        limits: how it can be stretched.
         course: when its positions are heard, s from its start: final up to ``made``, and after that as planned now.
         made: how much of its sound is made, s from its start.
         sounds: its parts.
@@ -53,7 +53,7 @@ class StretchedUtterance:
     ) -> None:
         self.utterance = utterance
         self.pitch = 1.0
-        self.pace = pace_of(utterance)
+        self.limits = stretch_limits(utterance)
         self.course = course or Course([0.0, utterance.duration], [0.0, utterance.duration])
         self.made = self._final = begin
         self._timed = utterance
@@ -91,7 +91,7 @@ class StretchedUtterance:
             rate: after the last goal, a factor of the pace of the voice.
         """
         begun = self._begun()
-        course = begun.then(self.pace.course(begun.times[-1], begun.positions[-1], goals))
+        course = begun.then(self.limits.course(begun.times[-1], begun.positions[-1], goals))
         rest = self.utterance.duration - course.positions[-1]
         if rate != 1.0 and rest > 0.0:
             time, position = course.times[-1], course.positions[-1]
@@ -104,7 +104,7 @@ class StretchedUtterance:
     def extend(self, utterance: Utterance) -> None:
         """Take the utterance when more of it is made."""
         self._scale.add(utterance.audio[len(self.utterance.audio) :])
-        self.utterance, self.pace = utterance, pace_of(utterance)
+        self.utterance, self.limits = utterance, stretch_limits(utterance)
         self._retime()
 
     def pause(self, until: float) -> None:
@@ -127,7 +127,7 @@ class StretchedUtterance:
     def earliest(self, position: float) -> float:
         """The earliest time at which a position can be heard, s from its start."""
         planned = self.course.time(position)
-        hurried = self._final + self.pace.least * (position - self.course.position(self._final))
+        hurried = self._final + self.limits.least * (position - self.course.position(self._final))
         return planned if planned <= self._final else min(planned, hurried)
 
     def make(self, until: float) -> None:
@@ -180,8 +180,8 @@ def border_after(timed: Utterance, time: float) -> float:
     return next(borders, max(timed.duration, time))
 
 
-def pace_of(utterance: Utterance) -> Pace:
+def stretch_limits(utterance: Utterance) -> StretchLimits:
     """How the sound of an utterance can be stretched."""
     silences = (each for each in utterance.phonemes if not each.symbol and each.duration >= _PAUSE)
     least, most = utterance.stretch or STRETCH
-    return Pace(least, most, [each.start + each.duration / 2 for each in silences])
+    return StretchLimits(least, most, [each.start + each.duration / 2 for each in silences])

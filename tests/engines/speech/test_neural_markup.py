@@ -8,7 +8,7 @@ from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.engine.tts import Utterance, completed, word_spans
 from reactive_realizer.engines.speech.espeak_utterance import PronouncedWord
 from reactive_realizer.engines.speech.kokoro.voice import KokoroVoice, alphabet
-from reactive_realizer.engines.speech.neural.markup import MarkedPace, with_phonemes, with_stops
+from reactive_realizer.engines.speech.neural.markup import MarkedRate, with_phonemes, with_stops
 from reactive_realizer.engines.speech.neural.pronunciation import sentences
 
 TEXT = "Take model A4 now"
@@ -30,8 +30,8 @@ def test_sentences_are_cut_where_the_rate_changes_and_at_silences() -> None:
     inner = replace(markup(MarkupKind.RATE, "A4"), number=0.1)
     silence = Markup(MarkupKind.BREAK, TEXT.index("now"), TEXT.index("now"), "<break>", number=1.5)
     words = [PronouncedWord(first, last, ("t",), pause=False) for first, last in word_spans(TEXT)]
-    cut = sentences(TEXT, words, alphabet("a"), MarkedPace([rate, inner, silence]))
-    assert [([sound.word for sound in each.sounds], each.rate, each.silence) for each in cut] == [
+    cut = sentences(TEXT, words, alphabet("a"), MarkedRate([rate, inner, silence]))
+    assert [([phoneme.word for phoneme in each.phonemes], each.rate, each.silence) for each in cut] == [
         ([0], 1.0, 0.0),
         ([1], 0.8, 0.0),
         ([2], 0.5, 1.5),

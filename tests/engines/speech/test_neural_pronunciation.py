@@ -55,10 +55,14 @@ def test_a_text_without_stops_is_cut_so_that_it_fits(text: str) -> None:
     made = list(sentences(text, words, alphabet("a")))
     assert len(made) > 3
     assert all(0 < len(each.tokens) <= 510 for each in made)
-    assert [sound.word for each in made for sound in each.sounds] == [word for word in range(400) for _ in range(3)]
+    assert [phoneme.word for each in made for phoneme in each.phonemes] == [
+        word for word in range(400) for _ in range(3)
+    ]
 
 
 def test_a_single_endless_word_goes_on_in_the_next_sentence_where_it_no_longer_fits() -> None:
     made = list(sentences("a", pronounced("a", "s " * 2000), alphabet("a")))
     assert [len(each.tokens) for each in made] == [510, 510, 510, 470]
-    assert [(each.sounds[0].first, each.sounds[-1].last) for each in made] == [(0, len(each.tokens)) for each in made]
+    assert [(each.phonemes[0].first, each.phonemes[-1].last) for each in made] == [
+        (0, len(each.tokens)) for each in made
+    ]

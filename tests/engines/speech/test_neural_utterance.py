@@ -125,7 +125,7 @@ def test_a_sentence_is_cut_after_a_pause_or_else_where_a_word_begins() -> None:
     starts = [
         start
         for before, own, (start, _) in zip(
-            [None, *sentence.sentence.sounds], sentence.sentence.sounds, sentence.times, strict=False
+            [None, *sentence.sentence.phonemes], sentence.sentence.phonemes, sentence.times, strict=False
         )
         if before is None or before.word != own.word
     ]

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from math import exp
 
 from reactive_realizer.engines.speech.lip_sync.shapes import Articulator, MouthShape
-from reactive_realizer.engines.speech.lip_sync.sounds import Sound
+from reactive_realizer.engines.speech.lip_sync.timed_visemes import TimedViseme
 
 _REACH = 8.0
 """Number of time constants after which a dominance is neglected: 3e-4 of its maximum."""
@@ -23,35 +23,35 @@ class Coarticulation:
     """The mouth of an utterance as its sounds shape each other.
 
     Args:
-        sounds: of the utterance, in order and without gaps.
+        visemes: of the utterance, in order and without gaps.
         shapes: by viseme.
         articulators: by name.
     """
 
     def __init__(
-        self, sounds: Sequence[Sound], shapes: Mapping[str, MouthShape], articulators: Mapping[str, Articulator]
+        self, visemes: Sequence[TimedViseme], shapes: Mapping[str, MouthShape], articulators: Mapping[str, Articulator]
     ) -> None:
-        self._sounds = sounds
+        self._visemes = visemes
         self._shapes = shapes
         self._articulators = articulators
-        self._starts = [sound.start for sound in sounds]
-        self._ends = [sound.end for sound in sounds]
+        self._starts = [each.start for each in visemes]
+        self._ends = [each.end for each in visemes]
 
     def weights(self, name: str, time: float) -> dict[str, float]:
         """Weights, 0..1, of the morph targets of an articulator at a time, s from the start of the utterance.
 
-        Sounds that hold the articulator in a contact take no part: `Contacts` shows them.
+        Visemes that hold the articulator in a contact take no part: `Contacts` shows them.
         """
         articulator = self._articulators[name]
         first = bisect_left(self._ends, time - _REACH * articulator.after)
         last = bisect_right(self._starts, time + _REACH * articulator.before)
         total = 0.0
         sums = dict.fromkeys(articulator.morphs, 0.0)
-        for sound in self._sounds[first:last]:
-            shape = self._shapes[sound.viseme]
+        for viseme in self._visemes[first:last]:
+            shape = self._shapes[viseme.name]
             if name in shape.contact:
                 continue
-            dominance = shape.dominance.get(name, 1.0) * _presence(articulator, sound, time)
+            dominance = shape.dominance.get(name, 1.0) * _presence(articulator, viseme, time)
             total += dominance
             for morph, target in shape.morphs.items():
                 if morph in sums:
@@ -59,8 +59,8 @@ class Coarticulation:
         return {morph: value / total for morph, value in sums.items() if value > 0.0}
 
 
-def _presence(articulator: Articulator, sound: Sound, time: float) -> float:
-    """The dominance of a sound as a share of its maximum, 0..1."""
-    if time < sound.start:
-        return exp((time - sound.start) / articulator.before)
-    return exp((sound.end - time) / articulator.after) if time > sound.end else 1.0
+def _presence(articulator: Articulator, viseme: TimedViseme, time: float) -> float:
+    """The dominance of a viseme as a share of its maximum, 0..1."""
+    if time < viseme.start:
+        return exp((time - viseme.start) / articulator.before)
+    return exp((viseme.end - time) / articulator.after) if time > viseme.end else 1.0

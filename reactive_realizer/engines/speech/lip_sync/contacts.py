@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, MouthShape
-from reactive_realizer.engines.speech.lip_sync.sounds import Sound
+from reactive_realizer.engines.speech.lip_sync.timed_visemes import TimedViseme
 
 SHORTEST = 0.025
 """The shortest time for which a contact is held, s: longer than from a frame to the next."""
@@ -47,13 +47,13 @@ class Contacts:
     """The contacts of an utterance.
 
     Args:
-        sounds: of the utterance, in order.
+        visemes: of the utterance, in order.
         shapes: by viseme.
     """
 
-    def __init__(self, sounds: Sequence[Sound], shapes: Mapping[str, MouthShape]) -> None:
-        wanted = [Contact(each.viseme, each.start, each.end) for each in sounds if shapes[each.viseme].contact]
-        end = sounds[-1].end
+    def __init__(self, visemes: Sequence[TimedViseme], shapes: Mapping[str, MouthShape]) -> None:
+        wanted = [Contact(each.name, each.start, each.end) for each in visemes if shapes[each.name].contact]
+        end = visemes[-1].end
         rest = Contact(SILENCE, 0.0, 0.0), Contact(SILENCE, end, end)
         self._contacts = [rest[0], *_shared_out(_in_time(wanted, end)), rest[1]]
         self._starts = [contact.start for contact in self._contacts]

@@ -7,7 +7,7 @@ from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.coarticulation import Coarticulation
 from reactive_realizer.engines.speech.lip_sync.contacts import APPROACH, Contacts
 from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE
-from reactive_realizer.engines.speech.lip_sync.sounds import sounds_of
+from reactive_realizer.engines.speech.lip_sync.timed_visemes import timed_visemes
 
 _SHORTEST = 2 * APPROACH
 """Duration of an utterance below which the mouth does not open, s."""
@@ -25,9 +25,9 @@ class LipSyncTrack:
     def __init__(self, utterance: Utterance, binding: VisemeBinding) -> None:
         self.utterance = utterance
         self._binding = binding
-        sounds = sounds_of(utterance, binding)
-        self._contacts = Contacts(sounds, binding.shapes)
-        self._coarticulation = Coarticulation(sounds, binding.shapes, binding.articulators)
+        visemes = timed_visemes(utterance, binding)
+        self._contacts = Contacts(visemes, binding.shapes)
+        self._coarticulation = Coarticulation(visemes, binding.shapes, binding.articulators)
 
     def weights(self, time: float) -> Mapping[str, float]:
         """Weights of morph targets, 0..1, at a time from the start of the utterance, s; without those that are 0."""

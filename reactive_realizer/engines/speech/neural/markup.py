@@ -23,8 +23,8 @@ _LONGER: Final = "[\u02d0\u02d1\u0300-\u036f\u02b0\u02b2\u02b7]*"
 """Signs that belong to the sound before them: length, diacritics."""
 
 
-class MarkedPace:
-    """How fast the words of a text with markup are spoken (`Pace`)."""
+class MarkedRate:
+    """How fast the words of a text with markup are spoken (`SpeakingRate`)."""
 
     def __init__(self, markup: Sequence[Markup]) -> None:
         self._rates = [each for each in markup if each.kind is MarkupKind.RATE]

@@ -13,7 +13,7 @@ from reactive_realizer.engines.speech.espeak_voice import EspeakVoice, UnknownVo
 from reactive_realizer.engines.speech.neural.markup import (
     DICTIONARY,
     FOLLOWED,
-    MarkedPace,
+    MarkedRate,
     with_phonemes,
     with_stops,
 )
@@ -171,7 +171,7 @@ class NeuralVoice(ABC):
         pronounced = await self._dictionary.pronounce(stopped, voice.language, dictionary)
         words = with_phonemes(pronounced, markup, voice.alphabet)
         return words, list(
-            sentences(stopped, words, voice.alphabet, MarkedPace(markup) if markup else None, voice.stop)
+            sentences(stopped, words, voice.alphabet, MarkedRate(markup) if markup else None, voice.stop)
         )
 
     async def _predict(

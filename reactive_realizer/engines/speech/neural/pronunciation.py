@@ -50,8 +50,8 @@ class Alphabet:
 
 
 @dataclass(frozen=True, slots=True)
-class Sound:
-    """A sound within a sentence.
+class SentencePhoneme:
+    """A phoneme within a sentence.
 
     Attributes:
         symbol: IPA, stress marks included.
@@ -72,18 +72,18 @@ class Sentence:
 
     Attributes:
         tokens: 1 to 510.
-        sounds: in their order.
+        phonemes: in their order.
         rate: how many times as fast it is spoken.
         silence: after it, s, beside the pause of its stop.
     """
 
     tokens: list[int] = field(default_factory=list)
-    sounds: list[Sound] = field(default_factory=list)
+    phonemes: list[SentencePhoneme] = field(default_factory=list)
     rate: float = 1.0
     silence: float = 0.0
 
 
-class Pace(Protocol):
+class SpeakingRate(Protocol):
     """How fast the words of a text are spoken."""
 
     def rate(self, word: int) -> float:
@@ -96,7 +96,7 @@ class Pace(Protocol):
 
 
 def sentences(
-    text: str, words: Sequence[PronouncedWord], alphabet: Alphabet, pace: Pace | None = None, stop: float = 0.0
+    text: str, words: Sequence[PronouncedWord], alphabet: Alphabet, rate: SpeakingRate | None = None, stop: float = 0.0
 ) -> Iterator[Sentence]:
     """The sentences of a text; a long one is cut at a clause, or between words if it has none, or else within a word.
 
@@ -106,39 +106,43 @@ def sentences(
         text: plain text.
         words: all of its words.
         alphabet: of the network.
-        pace: of its words; None if all have the usual one.
+        rate: of its words; None if all have the usual one.
         stop: silence between two sentences, s, in addition to the pause that the network makes.
     """
     sentence = Sentence()
     for number, word in enumerate(words):
         spoken = [(sound, alphabet.write(sound)) for sound in word.sounds]
-        if len(sentence.tokens) + sum(len(tokens) for _, tokens in spoken) > _MOST_TOKENS and sentence.sounds:
+        if len(sentence.tokens) + sum(len(tokens) for _, tokens in spoken) > _MOST_TOKENS and sentence.phonemes:
             yield sentence
             sentence = Sentence()
         following = words[number + 1].first if number + 1 < len(words) else len(text)
-        sentence.rate = 1.0 if pace is None else pace.rate(word.first)
+        sentence.rate = 1.0 if rate is None else rate.rate(word.first)
         for symbol, tokens in spoken:
             if len(sentence.tokens) + len(tokens) > _MOST_TOKENS:
-                yield from [sentence] if sentence.sounds else ()
+                yield from [sentence] if sentence.phonemes else ()
                 sentence = Sentence(rate=sentence.rate)
-            _append(sentence, Sound(symbol, number, len(sentence.tokens), len(sentence.tokens) + len(tokens)), tokens)
-        sentence.silence = 0.0 if pace is None else pace.silence(word.first, following)
+            _append(
+                sentence,
+                SentencePhoneme(symbol, number, len(sentence.tokens), len(sentence.tokens) + len(tokens)),
+                tokens,
+            )
+        sentence.silence = 0.0 if rate is None else rate.silence(word.first, following)
         between = text[word.last : following] if word.pause else _SPACE
-        changes = pace is not None and (sentence.silence > 0 or pace.rate(following) != sentence.rate)
+        changes = rate is not None and (sentence.silence > 0 or rate.rate(following) != sentence.rate)
         stops = _ends(between, len(sentence.tokens))
         ends = following == len(text) or changes or stops
         sentence.silence += stop if stops and following < len(text) else 0.0
         room = _MOST_TOKENS - len(sentence.tokens)
         sentence.tokens += alphabet.punctuate(between, last=ends)[:room]
-        if ends and sentence.sounds:
+        if ends and sentence.phonemes:
             yield sentence
             sentence = Sentence()
 
 
-def _append(sentence: Sentence, sound: Sound, tokens: Sequence[int]) -> None:
+def _append(sentence: Sentence, phoneme: SentencePhoneme, tokens: Sequence[int]) -> None:
     sentence.tokens += tokens
     if tokens:
-        sentence.sounds.append(sound)
+        sentence.phonemes.append(phoneme)
 
 
 def _ends(between: str, length: int) -> bool:

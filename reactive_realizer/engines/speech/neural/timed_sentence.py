@@ -8,7 +8,7 @@ from math import ceil, floor
 from typing import NamedTuple
 
 from reactive_realizer.engine.phonetics import STRESS
-from reactive_realizer.engines.speech.neural.pronunciation import Sentence, Sound
+from reactive_realizer.engines.speech.neural.pronunciation import Sentence, SentencePhoneme
 
 PAUSE = 0.1
 """The shortest time between two sounds that counts as a pause, s; the space between words takes 0.025 to 0.075."""
@@ -74,9 +74,9 @@ class TimedSentence:
 
     @cached_property
     def times(self) -> list[tuple[float, float]]:
-        """Start and end of its sounds, s from its first sample."""
+        """Start and end of its phonemes, s from its first sample."""
         offset = self._first / self.format.rate
-        times = [(self._borders[sound.first + 1], self._borders[sound.last + 1]) for sound in self.sentence.sounds]
+        times = [(self._borders[each.first + 1], self._borders[each.last + 1]) for each in self.sentence.phonemes]
         return [(max(0.0, start - offset), end - offset) for start, end in times]
 
     @property
@@ -116,9 +116,9 @@ class TimedSentence:
     @cached_property
     def _places(self) -> list[tuple[float, float]]:
         """Where it can be cut, s, each with a cost: 0 after a pause, more the louder the sounds are there."""
-        sounds, times = self.sentence.sounds, self.times
+        phonemes, times = self.sentence.phonemes, self.times
         places = []
-        for before, after, (_, end), (start, _) in zip(sounds, sounds[1:], times, times[1:], strict=False):
+        for before, after, (_, end), (start, _) in zip(phonemes, phonemes[1:], times, times[1:], strict=False):
             if start - end >= PAUSE:
                 places.append((start - _BEFORE, 0.0))
             elif before.word != after.word:
@@ -136,19 +136,19 @@ class TimedSentence:
     @cached_property
     def _first(self) -> int:
         """The first sample that is kept."""
-        return max(0, round((self._borders[self.sentence.sounds[0].first + 1] - _BEFORE) * self.format.rate))
+        return max(0, round((self._borders[self.sentence.phonemes[0].first + 1] - _BEFORE) * self.format.rate))
 
     @cached_property
     def _end(self) -> int:
         """The sample after the last one that is kept."""
-        end = self._borders[self.sentence.sounds[-1].last + 1]
+        end = self._borders[self.sentence.phonemes[-1].last + 1]
         return min(
             round((end + _AFTER if self.last else max(self._borders[-2], end)) * self.format.rate),
             round(sum(self.durations) * self.format.length),
         )
 
 
-def _cost(sound: Sound) -> float:
-    """How much a cut before a sound may be heard: least where it is silent for a moment, as before a voiceless stop."""
-    first = sound.symbol.lstrip(STRESS)[:1]
+def _cost(phoneme: SentencePhoneme) -> float:
+    """How much a cut before a phoneme may be heard: least where it is silent, as before a voiceless stop."""
+    first = phoneme.symbol.lstrip(STRESS)[:1]
     return 0.2 if first in _VOICELESS else 0.4 if first in _STOPS else 0.8

@@ -43,9 +43,9 @@ def as_utterance(
     begun: list[tuple[float, int]] = []
     for timed, begin in zip(sentences, begins, strict=False):
         following = [*(start for start, _ in timed.times[1:]), float("inf")]
-        for sound, (start, end), next_ in zip(timed.sentence.sounds, timed.times, following, strict=True):
-            onsets.append((begin + onset(sound.symbol, start, end), sound.symbol))
-            begun.append((begin + start, words[sound.word].first))
+        for phoneme, (start, end), next_ in zip(timed.sentence.phonemes, timed.times, following, strict=True):
+            onsets.append((begin + onset(phoneme.symbol, start, end), phoneme.symbol))
+            begun.append((begin + start, words[phoneme.word].first))
             onsets += [(begin + end, "")] if next_ - end >= PAUSE else []
     silent, duration = onsets[-1][0] if onsets else 0.0, begins[-1]
     phonemes = [Phoneme(symbol, at, end - at) for (at, symbol), (end, _) in pairwise([*onsets, (duration, "")])]

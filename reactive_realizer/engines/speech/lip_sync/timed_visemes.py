@@ -16,20 +16,20 @@ _LIP_PLOSIVES = frozenset("pb")
 
 
 @dataclass(frozen=True, slots=True)
-class Sound:
+class TimedViseme:
     """A viseme from `start` to `end`, s from the start of the utterance."""
 
-    viseme: str
+    name: str
     start: float
     end: float
 
 
-def sounds_of(utterance: Utterance, binding: VisemeBinding) -> list[Sound]:
+def timed_visemes(utterance: Utterance, binding: VisemeBinding) -> list[TimedViseme]:
     """The visemes of an utterance in order, without gaps, with silence before and after it; neighbors differ."""
     onsets = [(SILENCE, 0.0), *_onsets(utterance, binding), (SILENCE, utterance.duration)]
     changes = [next(same) for _, same in groupby(onsets, key=lambda onset: onset[0])]
     ends = [start for _, start in changes[1:]]
-    return [Sound(*onset, end) for onset, end in zip(changes, [*ends, utterance.duration], strict=True)]
+    return [TimedViseme(*onset, end) for onset, end in zip(changes, [*ends, utterance.duration], strict=True)]
 
 
 def _onsets(utterance: Utterance, binding: VisemeBinding) -> Iterator[tuple[str, float]]:
