@@ -1,4 +1,4 @@
-"""Which items hang on which pegs, and a watch, which tells the items of pegs that have moved."""
+"""A watch: observes the pegs of items, and tells the items of pegs that have moved."""
 
 from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar
@@ -9,10 +9,16 @@ from reactive_realizer.reactive.graph import Change, Observer
 T = TypeVar("T")
 
 
-class PegIndex(Generic[T]):
-    """The pegs of items, and the items of pegs; a peg may belong to several."""
+class Watch(Generic[T]):
+    """Observes the pegs of items; a peg may belong to several.
 
-    def __init__(self) -> None:
+    Args:
+        moved: called with an item and the change of one of its pegs, after each commit that moved the peg.
+    """
+
+    def __init__(self, moved: Callable[[T, Change], object]) -> None:
+        self._moved = moved
+        self._observer = Observer(self._note)
         self._pegs: dict[T, dict[TimeCell, None]] = {}
         self._items: dict[TimeCell, dict[T, None]] = {}
 
@@ -26,7 +32,7 @@ class PegIndex(Generic[T]):
             items = self._items.get(peg)
             if items is None:
                 self._items[peg] = {item: None}
-                self._joined(peg)
+                peg.attach(self._observer)
             else:
                 items[item] = None
         for peg in old:
@@ -46,47 +52,12 @@ class PegIndex(Generic[T]):
                 found.update(items)
         return list(found)
 
-    def moved(self, changes: Iterable[Change]) -> tuple[set[T], list[Change]]:
-        """The items of the pegs that some changes moved, and those of the changes that moved pegs of items."""
-        items: set[T] = set()
-        moves: list[Change] = []
-        for change in changes:
-            if (found := self._items.get(change[0])) is not None:
-                items.update(found)
-                moves.append(change)
-        return items, moves
-
     def _leave(self, peg: TimeCell, item: T) -> None:
         items = self._items[peg]
         del items[item]
         if not items:
             del self._items[peg]
-            self._left(peg)
-
-    def _joined(self, peg: TimeCell) -> None:
-        """Called when a peg has got its first item."""
-
-    def _left(self, peg: TimeCell) -> None:
-        """Called when a peg has lost its last item."""
-
-
-class Watch(PegIndex[T]):
-    """Observes the pegs of items.
-
-    Args:
-        moved: called with an item and the change of one of its pegs, after each commit that moved the peg.
-    """
-
-    def __init__(self, moved: Callable[[T, Change], object]) -> None:
-        super().__init__()
-        self._moved = moved
-        self._observer = Observer(self._note)
-
-    def _joined(self, peg: TimeCell) -> None:
-        peg.attach(self._observer)
-
-    def _left(self, peg: TimeCell) -> None:
-        peg.detach(self._observer)
+            peg.detach(self._observer)
 
     def _note(self, change: Change) -> None:
         for item in tuple(self._items.get(change[0], ())):

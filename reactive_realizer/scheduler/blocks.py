@@ -8,7 +8,6 @@ from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.errors import Fault, SchedulingFault, TargetFault
 from reactive_realizer.pegboard.agenda import Agenda
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.block_watch import BlockWatch, in_order
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -65,7 +64,6 @@ class Blocks:
     """Blocks by name, in order of arrival.
 
     Args:
-        graph: of their pegs.
         remembered: how many ended blocks are kept.
 
     Attributes:
@@ -74,10 +72,10 @@ class Blocks:
         watch: observes those that are alive.
     """
 
-    def __init__(self, graph: Graph, remembered: int) -> None:
+    def __init__(self, remembered: int) -> None:
         self.starting: Agenda[BMLBlock] = Agenda(_start, lambda block: (block.start,))
         self.numbers: Counter[Lane] = Counter()
-        self.watch = BlockWatch(graph)
+        self.watch = BlockWatch()
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
         self._own = _BlocksByName()

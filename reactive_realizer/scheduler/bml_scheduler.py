@@ -75,7 +75,7 @@ class BMLScheduler:
         strategy: SchedulingStrategy,
         limits: Limits,
     ) -> None:
-        self.blocks = Blocks(board.graph, limits.remembered_blocks)
+        self.blocks = Blocks(limits.remembered_blocks)
         self.refused = self.failed = 0
         self._board = board
         self._routing = routing
