@@ -129,6 +129,8 @@ class Humanoid:
 
     def _steady(self, steady: Body, wanted: Body) -> Body:
         """Return the body without additive motion, with arms that are slowed where they are shown."""
+        if self._shown is wanted:
+            return steady
         shown = self._shown.pose
         slower = {joint: shown[joint] for joint in self._arms if shown[joint] is not wanted.pose[joint]}
         return steady.posed(slower) if slower else steady

@@ -1,10 +1,9 @@
 """Composes layers of motion into one pose, in a fixed order."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
-from functools import reduce
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -62,6 +61,11 @@ class Layer:
     root: Vec3 | None = None
     weights: Mapping[str, float] | None = None
 
+    @property
+    def whole(self) -> bool:
+        """Whether every joint has the weight 1."""
+        return self.weight >= 1.0 and self.weights is None
+
     def weight_of(self, joint: str) -> float:
         """Return the weight of one joint, 0 to 1."""
         return min(1.0, self.weight if self.weights is None else self.weight * self.weights.get(joint, 1.0))
@@ -87,21 +91,14 @@ def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> ComposedBody:
     (`turned_further`), so that a head that is turned aside nods about its own axis.
     """
     lower, added, upper = _sorted(layers)
-    steady = reduce(over, lower, Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY)))
-    shown = reduce(turned_further, added, steady)
-    return ComposedBody(reduce(over, upper, shown), reduce(over, upper, steady))
+    steady = _over(Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY)), lower)
+    shown = _turned_further(steady, added)
+    return ComposedBody(_over(shown, upper), _over(steady, upper))
 
 
 def over(body: Body, layer: Layer) -> Body:
     """Lay a layer over a body by its weight, along the shorter arc. Joints that the body lacks are ignored."""
-    rotations = _known(layer.rotations, body)
-    if layer.weight < 1.0 or layer.weights is not None:
-        rotations = {
-            joint: slerp(body.rotation(joint), goal, layer.weight_of(joint)) for joint, goal in rotations.items()
-        }
-    if layer.root is None:
-        return body.posed(rotations)
-    return body.posed(rotations, add(body.root, scale(subtract(layer.root, body.root), layer.weight_of(ROOT))))
+    return _over(body, (layer,))
 
 
 def turned_further(body: Body, layer: Layer) -> Body:
@@ -109,23 +106,48 @@ def turned_further(body: Body, layer: Layer) -> Body:
 
     Joints that the body lacks are ignored.
     """
-    rotations = {
-        joint: multiply(body.rotation(joint), _weighed(turn, layer.weight_of(joint)))
-        for joint, turn in _known(layer.rotations, body).items()
-    }
-    root = body.root if layer.root is None else add(body.root, scale(layer.root, layer.weight_of(ROOT)))
-    return body.posed(rotations, root)
+    return _turned_further(body, (layer,))
 
 
-def _weighed(turn: Quat, weight: float) -> Quat:
-    return turn if weight == 1.0 else power(turn, weight)
+# Both take several layers, so that a frame does not need a body for each of them.
 
 
-def _known(rotations: Mapping[str, Quat], body: Body) -> Mapping[str, Quat]:
+def _over(body: Body, layers: Collection[Layer]) -> Body:
+    if not layers:
+        return body
+    pose, root = dict(body.pose), body.root
+    for layer in layers:
+        rotations = _known(layer.rotations, pose, body.skeleton)
+        if layer.whole:
+            pose.update(rotations)
+        else:
+            for joint, goal in rotations.items():
+                pose[joint] = slerp(pose.get(joint, IDENTITY), goal, layer.weight_of(joint))
+        if layer.root is not None:
+            root = add(root, scale(subtract(layer.root, root), layer.weight_of(ROOT)))
+    return Body(body.skeleton, pose, root)
+
+
+def _turned_further(body: Body, layers: Collection[Layer]) -> Body:
+    if not layers:
+        return body
+    pose, root = dict(body.pose), body.root
+    for layer in layers:
+        rotations = _known(layer.rotations, pose, body.skeleton)
+        if not layer.whole:
+            rotations = {joint: power(turn, layer.weight_of(joint)) for joint, turn in rotations.items()}
+        for joint, turn in rotations.items():
+            pose[joint] = multiply(pose.get(joint, IDENTITY), turn)
+        if layer.root is not None:
+            root = add(root, scale(layer.root, layer.weight_of(ROOT)))
+    return Body(body.skeleton, pose, root)
+
+
+def _known(rotations: Mapping[str, Quat], pose: Mapping[str, Quat], skeleton: Skeleton) -> Mapping[str, Quat]:
     # The usual case: the pose has all of them.
-    if rotations.keys() <= body.pose.keys():
+    if rotations.keys() <= pose.keys():
         return rotations
-    return {joint: turn for joint, turn in rotations.items() if joint in body.skeleton}
+    return {joint: turn for joint, turn in rotations.items() if joint in skeleton}
 
 
 def _sorted(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer], list[Layer]]:

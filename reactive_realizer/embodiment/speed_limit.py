@@ -58,8 +58,13 @@ def slowed(shown: JointRotations, wanted: JointRotations, duration: float) -> di
         wanted: the requested rotations of some joints.
         duration: between the two, s, more than 0.
     """
+    return {**wanted, **_held_back(shown, wanted, duration)}
+
+
+def _held_back(shown: JointRotations, wanted: JointRotations, duration: float) -> dict[str, Quat]:
+    """Return the rotations of the joints that would turn faster than their limits."""
     within = {speed: math.cos(0.5 * speed * duration) for speed in _ALL_SPEEDS}
-    hasty = {
+    return {
         joint: _toward(start, goal, fastest(joint) * duration)
         for joint, goal in wanted.items()
         # Most joints stay as they are, as the same tuple.
@@ -67,7 +72,6 @@ def slowed(shown: JointRotations, wanted: JointRotations, duration: float) -> di
         and abs(start[0] * goal[0] + start[1] * goal[1] + start[2] * goal[2] + start[3] * goal[3])
         < within[_SPEEDS.get(joint, _LIMB)]
     }
-    return {**wanted, **hasty}
 
 
 class SpeedLimit:
@@ -109,8 +113,12 @@ class SpeedLimit:
             wanted: the requested body.
             duration: since the last body was shown, s, more than 0.
         """
-        pose = slowed(self._shown.pose, {**self._default, **wanted.pose}, duration)
-        body = Body(wanted.skeleton, pose | self._braking(wanted, duration), self._root(wanted.root, duration))
+        if len(wanted.pose) < len(self._default):
+            wanted = Body(wanted.skeleton, {**self._default, **wanted.pose}, wanted.root)
+        turns = _held_back(self._shown.pose, wanted.pose, duration) | self._braking(wanted, duration)
+        root = self._root(wanted.root, duration)
+        # Nothing is held back in most frames: then the same body is shown, with the transforms that it knows.
+        body = wanted.posed(turns, root) if turns or root is not wanted.root else wanted
         # The wrists share the trunk, so slowing one may change the other: repeat until both are within their limits.
         while (hasty := self._hasty(body, wanted, duration)) is not None:
             wrist, fraction = hasty
@@ -125,6 +133,8 @@ class SpeedLimit:
 
     def _braking(self, wanted: Body, duration: float) -> dict[str, Quat]:
         """Return rotations of the joints that have fallen behind, and would stop abruptly where they are wanted."""
+        if self._shown is self._goal:
+            return {}
         turns, shown, goals = {}, self._shown.pose, self._goal.pose
         for joint in self._upper:
             start, before, goal = shown.get(joint, IDENTITY), goals.get(joint, IDENTITY), wanted.rotation(joint)
@@ -159,6 +169,8 @@ class SpeedLimit:
 
     def _braked(self, wrist: str, direction: Vec3, wanted: Body, duration: float) -> float:
         """Return how far a wrist may go in a direction (a unit vector), m; any distance if it has not fallen behind."""
+        if self._shown is self._goal:
+            return math.inf
         before, goal, place = _from_root(wrist, self._goal), _from_root(wrist, wanted), self._places[wrist]
         if distance(before, place) < _BEHIND:
             return math.inf
@@ -167,6 +179,8 @@ class SpeedLimit:
 
     def _on_its_feet(self, body: Body, wanted: Body, duration: float) -> Body:
         """Return the body with its feet in place as far as possible, and no deeper below the ground than requested."""
+        if body is wanted:
+            return body
         if body.root is wanted.root and all(body.rotation(joint) is wanted.rotation(joint) for joint in LOWER_BODY):
             return body
         if self._walks:
