@@ -4,7 +4,6 @@ import logging
 from collections.abc import Callable
 from functools import partial
 from math import inf
-from operator import itemgetter
 from typing import TypeVar
 
 from reactive_realizer.clock.ticker import Tick
@@ -52,8 +51,8 @@ class Player:
     @property
     def playing(self) -> tuple[PlanUnit, ...]:
         """The units that play now."""
-        playing = ((rank, unit) for unit, rank in self._begun.items() if unit.state is UnitState.IN_EXEC)
-        return tuple(unit for _, unit in sorted(playing, key=itemgetter(0)))
+        playing = [unit for unit in self._begun if unit.state is UnitState.IN_EXEC]
+        return tuple(sorted(playing, key=self._begun.__getitem__) if len(playing) > 1 else playing)
 
     def listen(self, wake: Callable[[], None]) -> None:
         """Call ``wake()`` when units enter, leave or change."""

@@ -89,7 +89,10 @@ def _reach(time: float, smoothing: float) -> float:
 
 def _next_known(first: int, end: int, time_of: Callable[[int], Time]) -> tuple[int, GlobalTime] | None:
     """The first key position from a number on whose time is known, with the time; None if there is none."""
-    return next(((number, time) for number in range(first, end) if (time := time_of(number)) is not None), None)
+    for number in range(first, end):
+        if (time := time_of(number)) is not None:
+            return number, time
+    return None
 
 
 def progress_cell(unit: PlanUnit, phases: Sequence[float], time: Source[GlobalTime]) -> Scan[Progress]:

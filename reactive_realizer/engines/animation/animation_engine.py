@@ -38,6 +38,7 @@ from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import MovePoints, ReportFall, Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
+from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext, keys_of
 from reactive_realizer.engines.animation.blinks import USUAL_RATE
@@ -322,13 +323,16 @@ class AnimationEngine(DefaultEngine):
         return fallback if idle is None else self._isolated("idle animation", lambda: show(idle), fallback)
 
     def _stacked(self, now: GlobalTime) -> list[Layer]:
-        playing = self._playing(now)
-        alone = [layer for _, layer in playing]
+        shown = self.player.show(AnimationUnit, lambda unit: (unit, unit.layer(now)), now)
+        alone = [layer for _, layer in shown]
+        if not self._fade_outs:
+            return alone
+        playing = [(unit.height, layer) for unit, layer in shown]
         return self._isolated("fading motion", lambda: in_stacking_order(self._fade_outs, playing, now), alone)
 
-    def _playing(self, now: GlobalTime) -> list[tuple[tuple[float, float], Layer]]:
-        layers = self.player.show(AnimationUnit, lambda unit: (unit, unit.layer(now)), now)
-        return [(unit.height, layer) for unit, layer in layers]
+    def _playing(self) -> list[AnimationUnit]:
+        """Return the units that play, in order of planning."""
+        return [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
 
     def push(self, joint: str, force: Vec3, duration: float) -> None:
         """Push the figure; it gives way where controllers move it."""
@@ -337,7 +341,7 @@ class AnimationEngine(DefaultEngine):
     @property
     def needs_frames(self) -> bool:
         """Whether the figure is simulated, or walks: what happens then depends on what happened before."""
-        steps = any(unit.motion.steps for unit in self.player.playing if isinstance(unit, AnimationUnit))
+        steps = any(unit.motion.steps for unit in self._playing())
         walks = self._walk.active or steps or bool(self._walks())
         return self._physical_figure.active or bool(self._controlling()) or walks
 
@@ -348,13 +352,12 @@ class AnimationEngine(DefaultEngine):
     def _destination(self, now: GlobalTime) -> Goal | None:
         """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""
         goals = [goal for unit in self._walks() if (goal := unit.goal()) is not None]
-        units = self.player.stacked(AnimationUnit)
         moved = any(ROOT in controller.joints for controller in self._controlling().values())
         stands = self._rest.posture.stance is StanceType.STANDING and not moved
-        if goals or not stands or any(Resource.STANCE in unit.resources for unit in units):
+        if goals or not stands or any(Resource.STANCE in unit.resources for unit in self._playing()):
             self._step_turns.forget()
             return goals[-1] if goals else None
-        return self._step_turns.goal(now, self._humanoid.place, units)
+        return self._step_turns.goal(now, self._humanoid.place, lambda: self.player.stacked(AnimationUnit))
 
     def _walks(self) -> list[LocomotionUnit]:
         """Return the locomotion that plays."""
@@ -363,13 +366,15 @@ class AnimationEngine(DefaultEngine):
     def dynamics(self, tick: Tick) -> Dynamics | None:
         """Return the movement of the joints that controllers move and no motion turns (thesis 8.7.5)."""
         claimed: frozenset[str] = frozenset()
-        for unit in self.player.playing:
-            if isinstance(unit, AnimationUnit) and unit.motion.kind in _CLAIMING:
-                claimed |= unit.shown.rotations.keys()
-        return self._physical_figure.dynamics(list(self._controlling().values()), claimed)
+        controllers = list(self._controlling().values())
+        if controllers or self._physical_figure.active:
+            claimed = claimed.union(*(u.shown.rotations for u in self._playing() if u.motion.kind in _CLAIMING))
+        return self._physical_figure.dynamics(controllers, claimed)
 
     def _controlling(self) -> dict[AnimationUnit, PhysicalController]:
         """Return the controllers that act, the latest last: in each replacement group, only the uppermost unit does."""
+        if not any(isinstance(unit.motion, ControllerMotionUnit) for unit in self._playing()):
+            return {}
         units = {unit.group or unit: unit for unit in self.player.stacked(AnimationUnit)}
         motions = ((unit, unit.motion) for unit in units.values())
         return {unit: motion.controller for unit, motion in motions if isinstance(motion, ControllerMotionUnit)}
@@ -388,8 +393,7 @@ class AnimationEngine(DefaultEngine):
     def warnings(self) -> tuple[Warn | ReportFall, ...]:
         """Return warnings about new units, and about playing units; and a fall."""
         notes, self._notes = self._notes, []
-        units = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
-        faults = (Warn(unit, fault) for unit in units if (fault := unit.new_fault()) is not None)
+        faults = (Warn(unit, fault) for unit in self._playing() if (fault := unit.new_fault()) is not None)
         return (*notes, *faults, *self._falls(), *self._late_hands.warnings())
 
     def _falls(self) -> Iterator[ReportFall]:
@@ -397,14 +401,15 @@ class AnimationEngine(DefaultEngine):
 
         A figure that lies because its posture says so has not fallen.
         """
-        units = [unit for unit, controller in self._controlling().items() if ROOT in controller.joints]
-        if self._physical_figure.take_fall() and units:
-            yield ReportFall(units[-1], self._humanoid.time)
+        if self._physical_figure.take_fall():
+            units = [unit for unit, controller in self._controlling().items() if ROOT in controller.joints]
+            yield from (ReportFall(unit, self._humanoid.time) for unit in units[-1:])
 
     def _gazes(self) -> Iterator[GazeGoal]:
         """Yield the active gaze goals: persistent ones, then playing ones, the latest last."""
         lasting = (motion.gaze(1.0) for motion in self._persistent.motions)
-        playing = (unit.motion.gaze(unit.phase) for unit in self.player.stacked(AnimationUnit))
+        looking = [unit for unit in self._playing() if unit.motion.gaze(unit.phase) is not None]
+        playing = (unit.motion.gaze(unit.phase) for unit in sorted(looking, key=height))
         return (gaze for gaze in (*lasting, *playing) if gaze is not None)
 
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
@@ -428,7 +433,7 @@ class AnimationEngine(DefaultEngine):
     def _hands(self, now: GlobalTime) -> Body | None:
         rest = hands = self._rest.body
         self._left_hands = [left for left in self._left_hands if not left.finished(now)]
-        playing = [unit for unit in self.player.playing if isinstance(unit, AnimationUnit)]
+        playing = self._playing()
         for unit in playing:
             if unit.motion.kind is LayerKind.POSTURE:
                 hands = over(hands, unit.timed_layer(now, rest))
@@ -481,7 +486,7 @@ class AnimationEngine(DefaultEngine):
 
     def _roots(self) -> list[Vec3]:
         """Return the displacements of HumanoidRoot at rest and in playing motions."""
-        playing = (unit.shown.root for unit in self.player.playing if isinstance(unit, AnimationUnit))
+        playing = (unit.shown.root for unit in self._playing())
         return [self._rest.body.root, *(root for root in playing if root is not None)]
 
     def _base(self) -> Layer:

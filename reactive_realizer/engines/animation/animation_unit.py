@@ -141,7 +141,7 @@ class AnimationUnit(PlanUnit):
         self.group = candidate.group or motion.group
         self.yields = candidate.yields
         self.shown = Layer(motion.kind, {}, 0.0)
-        self._played: Mapping[str, float] = {}
+        self._played: tuple[float, ...] = ()
         self._changing = False
         # What it showed before that.
         self._former = self.shown
@@ -153,6 +153,7 @@ class AnimationUnit(PlanUnit):
         self._names = candidate.names
         cells = {own: self.parameters[name].cell for name, own in candidate.names.items() if name in self.parameters}
         motion.parameters = ParameterValues(motion.parameters, cells)
+        self._cells = tuple(cells.values())
 
     def _stands_in(self, candidate: Candidate) -> bool:
         """Return whether a candidate has the points and the parameters of the planned one."""
@@ -241,7 +242,7 @@ class AnimationUnit(PlanUnit):
         self._set_shortest(time)
         added = motion.kind is LayerKind.ADDITIVE
         motion.start(self._context.body() if added else self._context.state_at(time).body)
-        self._played = dict(motion.parameters)
+        self._played = self._values()
         if motion.joined is not None or not added:
             self._context.switch(motion.joints, self._arrival(motion.joined or time, motion.entrance))
 
@@ -289,9 +290,13 @@ class AnimationUnit(PlanUnit):
 
     def _parameters_jumped(self) -> bool:
         """Return whether parameters of the motion have changed since the last call, but not just before."""
-        played, self._played = self._played, dict(self.motion.parameters)
+        played, self._played = self._played, self._values()
         changed, self._changing = self._changing, played != self._played
         return self._changing and not changed
+
+    def _values(self) -> tuple[float, ...]:
+        """Return the values of the parameters that may change while it plays."""
+        return tuple([cell.value for cell in self._cells])
 
     def _faded_in(self, layer: Layer, now: GlobalTime) -> Layer:
         """Scale the weight of a motion that joined late."""

@@ -7,7 +7,8 @@ from random import Random
 from reactive_realizer.bml.idle_change import IdleParameter
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
+from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, from_euler, multiply
+from reactive_realizer.embodiment.vector import scale
 from reactive_realizer.engines.animation.blinks import USUAL_RATE, Blinks
 from reactive_realizer.engines.animation.idle_course import IdleCourse
 from reactive_realizer.engines.animation.idle_movements import USUAL_BREATHING, Breath, Glances, WeightShift, leaning
@@ -73,22 +74,24 @@ class Idle:
         """
         standing = max(0.0, 1.0 - max(0.0, sunk) / _UPRIGHT)
         turns, root = leaning(self._degree * self._shift.at(time) * standing)
-        alive = self.rotations(time)
-        joined = {joint: multiply(turns[joint], turn) if joint in turns else turn for joint, turn in alive.items()}
-        return Layer(LayerKind.ADDITIVE, {**turns, **joined}, root=root)
+        rotations = {**turns, **self.rotations(time)}
+        for joint, turn in turns.items():
+            if rotations[joint] is not turn:
+                rotations[joint] = multiply(turn, rotations[joint])
+        return Layer(LayerKind.ADDITIVE, rotations, root=root)
 
     def rotations(self, time: float) -> dict[str, Quat]:
         """Return breathing, sway and looseness: the chest rises, and no part of the body is ever quite still."""
         degree = self._degree
-        rate, depth = (self.courses[each] for each in (IdleParameter.BREATHING_RATE, IdleParameter.BREATHING_DEPTH))
+        rate, depth = self.courses[IdleParameter.BREATHING_RATE], self.courses[IdleParameter.BREATHING_DEPTH]
         air = degree * depth.value(time) * self._breath.air(rate.integral(time))
         side, forth, turn = (degree * _wave(time + self._sway, *wave) for wave in _WAVES)
-        nod, aside, tilt = (0.5 * degree * angle for angle in self._looseness.head(time))
+        nod, aside, tilt = scale(self._looseness.head(time), 0.5 * degree)
         return {
             "vl5": from_euler(0.006 * forth, 0.008 * turn, 0.006 * side),
-            "vt6": from_euler(-0.016 * air, 0.0, 0.0),
-            "l_sternoclavicular": from_euler(0.0, 0.0, 0.022 * air),
-            "r_sternoclavicular": from_euler(0.0, 0.0, -0.022 * air),
+            "vt6": from_axis_angle((1.0, 0.0, 0.0), -0.016 * air),
+            "l_sternoclavicular": from_axis_angle((0.0, 0.0, 1.0), 0.022 * air),
+            "r_sternoclavicular": from_axis_angle((0.0, 0.0, 1.0), -0.022 * air),
             "vc4": from_euler(0.012 * air - 0.006 * forth + nod, aside, tilt - 0.006 * side),
             "skullbase": from_euler(0.006 * forth + nod, 0.010 * turn + aside, 0.004 * side + tilt),
             **self._looseness.fingers(time, degree),
@@ -96,9 +99,8 @@ class Idle:
 
     def eyes(self, time: float) -> dict[str, Quat]:
         """Return the rotations of eyes without a target: glances, microsaccades and drift."""
-        directions = zip(self._glances.at(time), self._fixation.at(time), strict=True)
-        yaw, pitch = (self._degree * (glance + tremor) for glance, tremor in directions)
-        turn = from_euler(-pitch, yaw, 0.0)
+        (left, up), (further_left, further_up) = self._glances.at(time), self._fixation.at(time)
+        turn = from_euler(-self._degree * (up + further_up), self._degree * (left + further_left), 0.0)
         return dict.fromkeys(EYES, turn)
 
     def blink(self, time: float) -> None:

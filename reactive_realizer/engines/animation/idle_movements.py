@@ -3,7 +3,8 @@
 import math
 from bisect import bisect_right
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 from operator import attrgetter
 from random import Random
 from typing import Generic, NamedTuple, TypeVar
@@ -44,6 +45,8 @@ class Episodes(Generic[T]):
         while (last := self._drawn[-1].since) <= time:
             duration, what = self._draw()
             self._drawn.append(Episode(last + duration, what))
+        if len(self._drawn) > 2 and self._drawn[-2].since <= time:  # as in nearly all frames
+            return self._drawn[-2], self._drawn[-3]
         now = max(0, bisect_right(self._drawn, time, key=attrgetter("since")) - 1)
         return self._drawn[now], self._drawn[max(0, now - 1)]
 
@@ -130,7 +133,12 @@ class WeightShift:
         return before.what + (now.what - before.what) * minimum_jerk((time - now.since) / _TAKES)
 
 
-def leaning(side: float) -> tuple[dict[str, Quat], Vec3]:
+_MOST_SIDES = 1000
+"""Number of cached values: a figure keeps its side from one weight shift to the next."""
+
+
+@lru_cache(_MOST_SIDES)
+def leaning(side: float) -> tuple[Mapping[str, Quat], Vec3]:
     """Return the turns of pelvis, trunk and neck, and the displacement of the pelvis, m.
 
     Args:

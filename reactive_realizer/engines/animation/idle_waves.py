@@ -49,7 +49,7 @@ class Looseness:
 
     def __init__(self, random: Random) -> None:
         """Draw from a generator that must not be shared."""
-        self._head = tuple(_Wave.drawn(random) for _ in _HEAD)
+        self._head = _Wave.drawn(random), _Wave.drawn(random), _Wave.drawn(random)
         self._fingers = [
             (f"{side}_{finger}1", _CURLING[side], size, _Wave.drawn(random))
             for side in SIDES
@@ -58,8 +58,8 @@ class Looseness:
 
     def head(self, time: float) -> Vec3:
         """Return the turns of the head at a time, s: nod, turn and tilt, rad."""
-        nod, turn, tilt = (size * wave.at(time) for size, wave in zip(_HEAD, self._head, strict=True))
-        return nod, turn, tilt
+        (nod, turn, tilt), (nods, turns, tilts) = _HEAD, self._head
+        return nod * nods.at(time), turn * turns.at(time), tilt * tilts.at(time)
 
     def fingers(self, time: float, degree: float) -> dict[str, Quat]:
         """Return the turns of fingers at a time, s, scaled by a degree."""

@@ -53,6 +53,8 @@ class LateHands:
         Motions with a fault are left out: their hands may be elsewhere because of it. So are those that have ended: the
         frame shows others.
         """
+        if not self._passed:
+            return
         shown = [each for each in self._passed if each[0] <= self._humanoid.time]
         self._passed = [each for each in self._passed if each[0] > self._humanoid.time]
         for _, unit, sync in shown:

@@ -4,7 +4,7 @@ As SmartBody's figures do: A. Shapiro, "Building a character animation system" (
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import inf
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
@@ -37,17 +37,17 @@ class StepTurns:
         """Leave the figure where it is: it walks, or no longer stands."""
         self._home = self._goal = self._owner = None
 
-    def goal(self, now: GlobalTime, place: Place, units: Sequence[AnimationUnit]) -> Goal | None:
+    def goal(self, now: GlobalTime, place: Place, playing: Callable[[], Sequence[AnimationUnit]]) -> Goal | None:
         """Return where to turn; None if nothing asks for a turn, or it is done.
 
         Args:
             now: s.
             place: of the figure.
-            units: that play, the latest last.
+            playing: returns the units that play, the latest last.
         """
         if now < self._looked + _LOOKS_EVERY - RESOLUTION:
             return self._pending(now)
-        self._looked = now
+        self._looked, units = now, playing()
         turns = [(unit, turn) for unit in units if (turn := unit.motion.step_turn(unit.phase)) is not None]
         # The uppermost that has turned the figure, or wants to: others would turn it away from its target.
         unit, turn = next(((unit, turn) for unit, turn in reversed(turns) if turn or unit is self._owner), (None, 0.0))
