@@ -208,8 +208,8 @@ class Humanoid:
     def _weights(self, face: Mapping[str, float]) -> NDArray[np.float64]:
         weights = np.zeros(len(self._morphs))
         for morph in face.keys() & self._morphs.keys():
-            weights[self._morphs[morph]] = face[morph]
-        return weights.clip(0.0, 1.0)
+            weights[self._morphs[morph]] = min(max(face[morph], 0.0), 1.0)
+        return weights
 
 
 def _sum(faces: Iterable[Mapping[str, float]]) -> dict[str, float]:
@@ -226,7 +226,7 @@ def _point(body: Body, joint: str | None) -> Vec3:
 
 def between_eyes(body: Body) -> Vec3:
     """Return the midpoint between the eyes in the body's frame, m; the top of the neck if an eye is missing."""
-    if not all(eye in body.skeleton for eye in EYES):
+    left, right = EYES
+    if left not in body.skeleton or right not in body.skeleton:
         return body.transform("skullbase").position
-    left, right = (body.transform(eye).position for eye in EYES)
-    return scale(add(left, right), 0.5)
+    return scale(add(body.transform(left).position, body.transform(right).position), 0.5)

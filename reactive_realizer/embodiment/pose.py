@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from operator import attrgetter
 from typing import NamedTuple
@@ -60,6 +60,8 @@ class Layer:
     priority: int = 0
     root: Vec3 | None = None
     weights: Mapping[str, float] | None = None
+    # A layer is checked where it is made, and again with the output of its engine; the second time costs nothing.
+    _checked: bool = field(init=False, repr=False, compare=False, default=False)
 
     @property
     def whole(self) -> bool:
@@ -167,12 +169,15 @@ def checked(layer: Layer) -> Layer:
         RealizerError: "bad-pose": a rotation is not a unit quaternion, a weight is not finite, or the root is further
             away than `FARTHEST`.
     """
+    if layer._checked:
+        return layer
     check_rotations(layer.rotations)
     for weight in (layer.weight, *(layer.weights or {}).values()):
         if not math.isfinite(weight):
             raise RealizerError(BadPose(what="its weight", value=weight))
     if layer.root is not None and not length(layer.root) <= FARTHEST:
         raise RealizerError(BadPose(what="HumanoidRoot's place", value=layer.root))
+    object.__setattr__(layer, "_checked", True)
     return layer
 
 

@@ -123,6 +123,7 @@ class AnimationEngine(DefaultEngine):
         binding = GestureBinding.read(*context.bindings["gesture"])
         library = PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses)
         self._rest = RestPosture(library, self._expected, self._possible_bodies)
+        self._base_layer: Layer | None = None
         self._humanoid.rest(self._rest.body)
         functions = plugin_functions(context.functions)
         maker_context = MakerContext(
@@ -490,7 +491,9 @@ class AnimationEngine(DefaultEngine):
         return [self._rest.body.root, *(root for root in playing if root is not None)]
 
     def _base(self) -> Layer:
-        return Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)
+        if self._base_layer is None or self._base_layer.rotations is not self._rest.pose:
+            self._base_layer = Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)
+        return self._base_layer
 
 
 def _precedes(unit: AnimationUnit, block: BlockKey, behavior: Behavior) -> bool:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.embodiment.body import Body, JointRotations
@@ -118,37 +118,83 @@ class HeadTurn(NamedTuple):
     missing: float | None
 
 
-def head_turn_toward(
-    body: Body, rest: JointRotations, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]
-) -> HeadTurn:
-    """Return the turn of trunk, neck and head toward a point, by their weights.
+class HeadTurner:
+    """Turns trunk, neck and head toward points.
 
     All joints turn about one axis, so the head does as well on its way from rest: D. Tweed and T. Vilis, "Listing's law
-    for gaze-directing head movements" (1992).
-
-    Args:
-        body: as it is; its rotations of these joints have no effect.
-        rest: pose of these joints without gaze.
-        point: returns the target from the midpoint between the eyes, both in the figure's frame, m.
-        weights: of each group of joints.
+    for gaze-directing head movements" (1992). A turn is computed again only if something has changed: usually, the
+    figure stands and its target does not move.
     """
-    parts = {joint: part for joint, part in joint_weights(weights).items() if joint in body.skeleton}
-    chain = body.skeleton.chain("skullbase")
-    ahead = {joint: rest.get(joint, IDENTITY) if joint in parts else body.rotation(joint) for joint in chain}
-    sockets = EyeSockets.of(Body(body.skeleton, ahead, body.root))
-    way = direction_between(sockets.middle, point(sockets.middle))
+
+    def __init__(self) -> None:
+        self._from: tuple[_Ahead, EyeSockets] | None = None
+        self._to: tuple[Vec3, HeadTurn] | None = None
+
+    def __call__(
+        self, body: Body, rest: JointRotations, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]
+    ) -> HeadTurn:
+        """Return the turn of trunk, neck and head toward a point, by their weights.
+
+        Args:
+            body: as it is; its rotations of these joints have no effect.
+            rest: pose of these joints without gaze.
+            point: returns the target from the midpoint between the eyes, both in the figure's frame, m.
+            weights: of each group of joints.
+        """
+        ahead = _Ahead.of(body, rest, weights)
+        if self._from is None or self._from[0] != ahead:
+            self._from, self._to = (ahead, EyeSockets.of(Body(body.skeleton, ahead.rotations, ahead.root))), None
+        _, sockets = self._from
+        target = point(sockets.middle)
+        if self._to is None or self._to[0] != target:
+            self._to = target, _turn_toward(target, sockets, ahead)
+        return self._to[1]
+
+
+class _Ahead(NamedTuple):
+    """A head that looks straight ahead, and how it may turn.
+
+    Attributes:
+        rotations: of the joints from the root to the head, in order.
+        root: displacement of HumanoidRoot, m.
+        parts: joint -> its share of the turn.
+        eyes: weight of the eyes.
+    """
+
+    rotations: dict[str, Quat]
+    root: Vec3
+    parts: Mapping[str, float]
+    eyes: float
+
+    @classmethod
+    def of(cls, body: Body, rest: JointRotations, weights: Mapping[str, float]) -> Self:
+        """Return the head of a body; see `HeadTurner`."""
+        parts = {joint: part for joint, part in joint_weights(weights).items() if joint in body.skeleton}
+        chain = body.skeleton.links("skullbase")
+        rotations = {joint: rest.get(joint, IDENTITY) if joint in parts else body.rotation(joint) for joint, _ in chain}
+        return cls(rotations, body.root, parts, weights.get(EYE_WEIGHT, 0.0))
+
+
+def _turn_toward(target: Vec3, sockets: EyeSockets, ahead: _Ahead) -> HeadTurn:
+    way = direction_between(sockets.middle, target)
     direction = FORWARD if way is None else rotate(conjugate(sockets.rotation), way)
-    eyes = weights.get(EYE_WEIGHT, 0.0)
-    eye_share = eyes * _EYE_COMFORT
-    aside = sum(_FURTHEST[joint][1] for joint in parts) + eye_share * EYE_RANGE
-    turn = head_turn(_limited_to_side(direction, aside), min(1.0, sum(parts.values())), eye_share)
-    rotations, done = _spread(turn, parts, ahead)
+    eye_share = ahead.eyes * _EYE_COMFORT
+    aside = sum(_FURTHEST[joint][1] for joint in ahead.parts) + eye_share * EYE_RANGE
+    turn = head_turn(_limited_to_side(direction, aside), min(1.0, sum(ahead.parts.values())), eye_share)
+    rotations, done = _spread(turn, ahead.parts, ahead.rotations)
     if way is None:
         return HeadTurn(rotations, None)
     beyond = _remaining_turn(done, direction)
     # Eyes with a partial weight need not reach the target.
-    left = eye_range(beyond) / eyes if eyes > 0.0 else 0.0
+    left = eye_range(beyond) / ahead.eyes if ahead.eyes > 0.0 else 0.0
     return HeadTurn(rotations, max(0.0, angle(beyond) - left))
+
+
+def head_turn_toward(
+    body: Body, rest: JointRotations, point: Callable[[Vec3], Vec3], weights: Mapping[str, float]
+) -> HeadTurn:
+    """Return a turn of trunk, neck and head toward a point, as `HeadTurner` does."""
+    return HeadTurner()(body, rest, point, weights)
 
 
 def head_turn(direction: Vec3, part: float, eye_share: float) -> Quat:

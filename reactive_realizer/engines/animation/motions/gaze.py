@@ -27,6 +27,7 @@ from reactive_realizer.engines.animation.gaze.head_turn import (
     GAZE_WEIGHTS,
     JOINT_GROUPS,
     HeadTurn,
+    HeadTurner,
     default_weights,
     head_turn_toward,
 )
@@ -141,6 +142,7 @@ class GazeMotionUnit(MotionUnit):
         self.steps = may_step and follows
         self.entrance = _TURN
         self._begin = rest.body
+        self._turner = HeadTurner()
         self._seen: tuple[GlobalTime, Mapping[str, Quat]] | None = None
         if expected is not None:
             turn = self._step_turn(expected)
@@ -232,13 +234,14 @@ class GazeMotionUnit(MotionUnit):
         return now > before and max(ways, default=0.0) > _FOLLOWED * (now - before)
 
     def _turn(self, body: Body) -> HeadTurn:
-        return head_turn_toward(body, self._rest.pose, self.point, self.parameters)
+        return self._turner(body, self._rest.pose, self.point, self.parameters)
 
     def _check_target(self, turn: HeadTurn, body: Body) -> None:
         """Set a fault if the gaze does not reach its target."""
         if self.persists_as is not None:
             # The shift that it replaces will go when this one has ended, with its turn of the trunk.
-            turn = self._turn(body.posed({joint: self._rest.body.rotation(joint) for joint in self.joints}))
+            rested = body.posed({joint: self._rest.body.rotation(joint) for joint in self.joints})
+            turn = head_turn_toward(rested, self._rest.pose, self.point, self.parameters)
         if turn.missing is None:
             self.fault = GazeNear()
         elif turn.missing > _TOLERANCE:

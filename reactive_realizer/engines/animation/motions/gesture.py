@@ -84,6 +84,8 @@ class GestureMotionUnit(MotionUnit):
         durations = self._durations(timing.duration, parameters.get(HOLD, 0.0))
         self.preferred_duration = sum(each.preferred for each in durations)
         self.key_positions = gesture_key_positions([each.preferred for each in durations])
+        outer = [self.key_positions[point] for point in _INNER]
+        self._parts = list(zip(pairwise(outer), pairwise(self._inner), strict=True))
         self.shortest, self.retraction = shortest_phases(durations), durations[-1].shortest
 
     def _durations(self, whole: float, hold: float) -> list[PhaseDuration]:
@@ -142,8 +144,7 @@ class GestureMotionUnit(MotionUnit):
 
     def _animation_phase(self, phase: float) -> float:
         """Return the phase of the animation: its ready during preparation, its relax during retraction."""
-        positions = [self.key_positions[point] for point in _INNER]
-        for (left, right), (begin, end) in zip(pairwise(positions), pairwise(self._inner), strict=True):
+        for (left, right), (begin, end) in self._parts:
             if phase < right:
                 return begin + (end - begin) * share(phase, left, right) if phase > left else begin
         return self._inner[-1]
