@@ -13,11 +13,11 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.face_map import NO_STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.inertialization import Inertialization
-from reactive_realizer.embodiment.joints import EYES, LEFT_ARM, RIGHT_ARM, ROOT
+from reactive_realizer.embodiment.joints import CARRYING, EYES, LEFT_ARM, RIGHT_ARM, ROOT
 from reactive_realizer.embodiment.lids import with_lids
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, multiply, rotate
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, difference, multiply, power, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.turn_weights import turns
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, distance, scale, subtract
@@ -77,6 +77,7 @@ class Humanoid:
         self._shown_place = self._place_before = self.place
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
         self._faced = frozenset(avatar.skeleton.joints).difference(EYES)
+        self._carrying = [joint for joint in CARRYING if joint in avatar.skeleton]
         self._arms = [joint for joint in avatar.skeleton.joints if joint in LEFT_ARM | RIGHT_ARM]
         self._inertialization = Inertialization(avatar.skeleton)
         self._limit: SpeedLimit | None = None
@@ -162,6 +163,20 @@ class Humanoid:
     def time(self) -> GlobalTime:
         """The time of the last move, s."""
         return self._time
+
+    def expected(self, time: GlobalTime) -> Body:
+        """Return the figure as shown last, with what carries its arms going on as in the last frame.
+
+        Args:
+            time: of a future frame, s. The motion is extrapolated by one frame at most.
+        """
+        before, shown, ahead = self._before, self._shown, time - self._time
+        if before is None or ahead <= 0.0 or before is shown:
+            return shown
+        share = min(1.0, ahead / self._passed)
+        steps = {joint: difference(before.rotation(joint), shown.rotation(joint)) for joint in self._carrying}
+        turned = {joint: multiply(shown.rotation(joint), power(step, share)) for joint, step in steps.items()}
+        return shown.posed(turned, add(shown.root, scale(subtract(shown.root, before.root), share)))
 
     def gap(self, joint: str) -> float:
         """Return the distance between the positions of a joint as composed and as moved, m.

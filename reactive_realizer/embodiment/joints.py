@@ -12,6 +12,9 @@ TRUNK = (ROOT, "vl5", "vt10", "vt6")
 HEAD = ("vc4", "skullbase")
 """Neck and head."""
 
+CARRYING = (*TRUNK, *(f"{side}_sternoclavicular" for side in SIDES))
+"""The joints that carry the arms."""
+
 JAW = "temporomandibular"
 
 EYES = ("l_eyeball_joint", "r_eyeball_joint")

@@ -109,6 +109,27 @@ async def test_gaze_and_breathing_do_not_move_the_finger_off_its_target(
     assert max(misses(pair, "alice", "l", (-0.4, 1.2, 1.3), 1.05, 6.0)) < 2.0
 
 
+@pytest.mark.parametrize(
+    "moved",
+    [
+        '<gaze id="g" target="bob" influence="WAIST" start="1.2" end="3"/>',
+        '<gaze id="g" target="behind" influence="WAIST" start="1.2" end="3"/>',
+        '<posture id="q" start="1.2"><stance type="SITTING"/></posture>',
+        '<head id="h" lexeme="TILT_FORWARD" start="1.2"/>',
+    ],
+)
+async def test_a_finger_that_points_across_the_body_stays_on_its_target_while_the_trunk_turns_or_leans(
+    pair: RealizerPilot, moved: str
+) -> None:
+    across = (0.9, 1.2, 0.9)
+    pair.move("thing", across)
+    pair.move("behind", (-2.0, 1.2, 0.2))
+    pair.block("b", HOLD.format("RIGHT_HAND", 4) + moved)
+    await pair.advance(4)
+    assert max(misses(pair, "alice", "r", across, 1.0, 4.0)) < 2.0
+    assert pair.feedback.warnings == []
+
+
 async def test_a_target_that_leaves_the_reach_is_reported_once_and_the_arm_stays_near(
     pair: RealizerPilot,
 ) -> None:

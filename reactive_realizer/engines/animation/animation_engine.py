@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import Awaitable, Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from random import Random
 from types import MappingProxyType
 from typing import TypeVar
@@ -29,7 +29,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.inertialization import CARRIED
-from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.joints import HEAD, ROOT
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
@@ -58,6 +58,7 @@ from reactive_realizer.engines.animation.gaze.eyes import lid_weights
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
+from reactive_realizer.engines.animation.idle_movements import standing_degree
 from reactive_realizer.engines.animation.kinematics import MotionHistory
 from reactive_realizer.engines.animation.late_hands import LateHands
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
@@ -73,6 +74,7 @@ from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
 from reactive_realizer.engines.animation.posture.foot_planting import FootPlanting
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
+from reactive_realizer.engines.animation.trunk_following import TrunkFollowing
 from reactive_realizer.engines.animation.walk import Walk
 from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.engines.animation.walking.step_turn import StepTurns
@@ -84,6 +86,8 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.reactive.graph import Graph
 
 T = TypeVar("T")
+
+_HEAD = frozenset(HEAD)
 
 _CLAIMING = (LayerKind.FULL_BODY, LayerKind.GAZE, LayerKind.GESTURE)
 """The kinds of motions whose joints no controller moves."""
@@ -143,6 +147,7 @@ class AnimationEngine(DefaultEngine):
         self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
         self._walk = Walk(context.humanoid)
+        self._trunk_following = TrunkFollowing(context.humanoid.avatar.skeleton)
         self._step_turns = StepTurns()
         self._persistent = PersistentPoses()
         self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
@@ -291,17 +296,22 @@ class AnimationEngine(DefaultEngine):
         walking: tuple[Layer, ...] = self._isolated(
             "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time), self._rest.body), ()
         )
+        standing = standing_degree(self._walk.stiffness - self._humanoid.body.root[1])
         layers = (
             self._base(),
             *walking,
-            *self._breath(tick.time),
+            *self._breath(tick.time, standing),
             *self._persisting(tick.time),
             *self._stacked(tick.time),
         )
-        feet: tuple[Layer, ...] = self._isolated(
-            "foot planting", lambda: self._foot_planting.layers(layers, tick.time, self._walk.feet), ()
+        follow: tuple[Layer, ...] = self._isolated(
+            "trunk following", lambda: self._followed(tick.time, layers, standing), ()
         )
-        return (*layers, *feet)
+        posed = (*layers, *follow)
+        feet: tuple[Layer, ...] = self._isolated(
+            "foot planting", lambda: self._foot_planting.layers(posed, tick.time, self._walk.feet), ()
+        )
+        return (*posed, *feet)
 
     def _persisting(self, now: GlobalTime) -> tuple[Layer, ...]:
         layers = self._persistent.layers(now, self._humanoid.body)
@@ -310,13 +320,20 @@ class AnimationEngine(DefaultEngine):
                 self._humanoid.switch(motion.joints, GlobalTime(now + motion.entrance))
         return layers
 
-    def _breath(self, now: GlobalTime) -> tuple[Layer, ...]:
+    def _followed(self, now: GlobalTime, layers: Iterable[Layer], standing: float) -> tuple[Layer, ...]:
+        """Return the layer in which trunk and pelvis follow gesturing and pointing arms."""
+        arms = [unit.shown for unit in self._playing() if isinstance(unit.behavior, Gesture | Pointing)]
+        if not arms and self._trunk_following.rests:
+            return ()
+        directed = any(layer.kind is LayerKind.GAZE and not _HEAD.isdisjoint(layer.rotations) for layer in layers)
+        steps = 0.0 if self._balances() else standing
+        return self._trunk_following.layers(now, arms, self._humanoid.body, directed=directed, standing=steps)
+
+    def _breath(self, now: GlobalTime, standing: float) -> tuple[Layer, ...]:
         for unit in self.player.playing:
             if isinstance(unit, IdleChangeUnit):
                 unit.follow(now)
-        return self._idle_part(
-            lambda idle: (checked(idle.layer(now, self._walk.stiffness - self._humanoid.body.root[1])),), ()
-        )
+        return self._idle_part(lambda idle: (checked(idle.layer(now, standing)),), ())
 
     def _idle_part(self, show: Callable[[Idle], T], fallback: T) -> T:
         """Return a part of idle animation, or a fallback if the figure has none."""
@@ -353,12 +370,15 @@ class AnimationEngine(DefaultEngine):
     def _destination(self, now: GlobalTime) -> Goal | None:
         """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""
         goals = [goal for unit in self._walks() if (goal := unit.goal()) is not None]
-        moved = any(ROOT in controller.joints for controller in self._controlling().values())
-        stands = self._rest.posture.stance is StanceType.STANDING and not moved
+        stands = self._rest.posture.stance is StanceType.STANDING and not self._balances()
         if goals or not stands or any(Resource.STANCE in unit.resources for unit in self._playing()):
             self._step_turns.forget()
             return goals[-1] if goals else None
         return self._step_turns.goal(now, self._humanoid.place, lambda: self.player.stacked(AnimationUnit))
+
+    def _balances(self) -> bool:
+        """Return whether a controller moves the root."""
+        return any(ROOT in controller.joints for controller in self._controlling().values())
 
     def _walks(self) -> list[LocomotionUnit]:
         """Return the locomotion that plays."""

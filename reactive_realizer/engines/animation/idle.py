@@ -20,9 +20,6 @@ _WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
 _QUICKER = 0.25
 """Share of the faster wave in a sway."""
 
-_UPRIGHT = 0.1
-"""A pelvis that is lower than this below standing height does not shift weight any more, m."""
-
 
 class Idle:
     """Idle motion as functions of time. Figures with different seeds move differently.
@@ -65,14 +62,13 @@ class Idle:
         for course in self.courses.values():
             course.reset(time)
 
-    def layer(self, time: float, sunk: float) -> Layer:
+    def layer(self, time: float, standing: float) -> Layer:
         """Return the additive layer at a time.
 
         Args:
             time: s.
-            sunk: how much lower the pelvis is than in standing, m; a sitting figure does not shift its weight.
+            standing: degree to which the figure may shift its weight, 0 to 1.
         """
-        standing = max(0.0, 1.0 - max(0.0, sunk) / _UPRIGHT)
         turns, root = leaning(self._degree * self._shift.at(time) * standing)
         rotations = {**turns, **self.rotations(time)}
         for joint, turn in turns.items():

@@ -133,6 +133,19 @@ class WeightShift:
         return before.what + (now.what - before.what) * minimum_jerk((time - now.since) / _TAKES)
 
 
+_SUNK = 0.1
+"""A pelvis that is lower than this below standing height does not shift weight any more, m."""
+
+
+def standing_degree(sunk: float) -> float:
+    """Return the degree to which a figure may shift its weight, 0 to 1: a sitting figure does not.
+
+    Args:
+        sunk: how much lower the pelvis is than in standing, m.
+    """
+    return max(0.0, 1.0 - max(0.0, sunk) / _SUNK)
+
+
 _MOST_SIDES = 1000
 """Number of cached values: a figure keeps its side from one weight shift to the next."""
 

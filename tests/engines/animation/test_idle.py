@@ -13,7 +13,7 @@ from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import FORWARD, distance
 from reactive_realizer.engines.animation.idle import Idle
-from reactive_realizer.engines.animation.idle_movements import Episodes
+from reactive_realizer.engines.animation.idle_movements import Episodes, standing_degree
 
 from .bodies import body_in
 
@@ -26,7 +26,7 @@ def blinks(idle: Idle, seconds: float) -> list[float]:
 
 def life(idle: Idle, time: float) -> tuple[Layer, dict[str, float], JointRotations]:
     """All of it."""
-    return idle.layer(time, 0.0), idle.blinks(time), idle.eyes(time)
+    return idle.layer(time, 1.0), idle.blinks(time), idle.eyes(time)
 
 
 def test_the_same_seed_gives_the_same_idle_animation_in_any_order_of_queries() -> None:
@@ -59,7 +59,7 @@ def test_two_figures_blink_and_breathe_independently() -> None:
     one, other = Idle(Random(1)), Idle(Random(2))
     assert blinks(one, 60.0) != blinks(other, 60.0)
     assert one.rotations(1.0) != other.rotations(1.0)
-    assert [one.layer(t, 0.0).root for t in range(60)] != [other.layer(t, 0.0).root for t in range(60)]
+    assert [one.layer(t, 1.0).root for t in range(60)] != [other.layer(t, 1.0).root for t in range(60)]
     assert [one.eyes(t) for t in range(60)] != [other.eyes(t) for t in range(60)]
 
 
@@ -116,7 +116,7 @@ def test_a_breath_is_smooth() -> None:
 
 def aside(idle: Idle, time: float, sunk: float = 0.0) -> float:
     """How far the pelvis is to the side, m."""
-    root = idle.layer(time, sunk).root
+    root = idle.layer(time, standing_degree(sunk)).root
     assert root is not None
     return root[0]
 
@@ -154,7 +154,7 @@ def test_a_weight_shift_keeps_the_head_level(skeleton: Skeleton) -> None:
     idle = Idle(Random(5))
     still = Idle(Random(5))
     for i in range(0, 600, 7):
-        layer = idle.layer(float(i), 0.0)
+        layer = idle.layer(float(i), 1.0)
         assert layer.root is not None
         head = Body(skeleton, layer.rotations, layer.root).transform("skullbase").rotation
         alone = Body(skeleton, still.rotations(float(i))).transform("skullbase").rotation

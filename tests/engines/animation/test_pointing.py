@@ -34,7 +34,7 @@ def miss(body: Body, side: str, target: Vec3) -> float:
 
 def pointing(body: Body, target: Vec3 = AHEAD, sides: str = "r", **parameters: float) -> PointingMotionUnit:
     arms = [PointingArm(body.skeleton, side) for side in sides]
-    return PointingMotionUnit("it", arms, lambda time=None: target, lambda: body, body, {**DEFAULTS, **parameters})
+    return PointingMotionUnit("it", arms, lambda time=None: target, lambda _: body, body, {**DEFAULTS, **parameters})
 
 
 def speeds(unit_: PointingMotionUnit, body: Body, first: float, last: float, count: int = 60) -> list[float]:

@@ -69,7 +69,7 @@ class PointingMotionUnit(MotionUnit):
         name: str,
         arms: Sequence[PointingArm],
         target: TargetLocator,
-        figure: Callable[[], Body],
+        figure: Callable[[GlobalTime], Body],
         rest: Body,
         parameters: Mapping[str, float] = DEFAULTS,
         facing: "Facing | None" = None,
@@ -80,7 +80,8 @@ class PointingMotionUnit(MotionUnit):
             name: of the target.
             arms: one or both.
             target: locates the target at the time of a frame.
-            figure: returns the body as shown last; its additive motion, such as breathing, moves the finger.
+            figure: returns the body as expected in a frame (`Humanoid.expected`), with additive motion such as
+                breathing, which moves the finger.
             rest: expected body at the start; preferred durations follow from it.
             parameters: a valid value for each of `RANGES`.
             facing: the turn of the feet; None if they stay.
@@ -122,7 +123,7 @@ class PointingMotionUnit(MotionUnit):
         """Return the rotations of arms and fingers; retraction fades to the layers below."""
         keys, phase = self.key_positions, moment.phase
         if phase <= keys["relax"] or not self._aimed:
-            aims = self._aim(self._figure(), moment.time)
+            aims = self._aim(self._figure(moment.time), moment.time)
             self._aimed = _turns(aims)
             if phase >= keys["ready"]:
                 self.fault = self.fault or self._missed(aims)
@@ -203,7 +204,7 @@ class PointingMaker:
         seen = target if facing is None else lambda time=None: facing.turned(target(time))
         arms = self._arms(sides, behavior, seen) if sides else self._free(behavior, seen)
         parameters = {**DEFAULTS, **parameter_values(request.parameters, RANGES)}
-        return PointingMotionUnit(behavior.target, arms, target, lambda: humanoid.shown, rest, parameters, facing)
+        return PointingMotionUnit(behavior.target, arms, target, humanoid.expected, rest, parameters, facing)
 
     def _facing(self, target: TargetLocator, sides: str | None) -> Facing | None:
         """Return the turn of the feet toward a target that is behind the arms that have to point; None if they stay."""

@@ -6,7 +6,7 @@ from math import atan2
 
 from reactive_realizer.embodiment.arm_anatomy import ArmAnatomy, ArmRotations
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.joints import SIDES, TRUNK, other_side
+from reactive_realizer.embodiment.joints import CARRYING, other_side
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
     Quat,
@@ -28,8 +28,6 @@ EFFECTORS: Mapping[str, tuple[type[Arm] | type[Leg], str]] = {
     "r_ankle": (Leg, "r"),
 }
 """Joint -> the limb that ends in it, and its side."""
-
-_CARRYING = (*TRUNK, *(f"{side}_sternoclavicular" for side in SIDES))
 
 # Distance from which on a hand visibly misses its goal in the figure's frame, m.
 _MISSED = 0.01
@@ -142,7 +140,7 @@ def carried_as_shown(body: Body, steady: Body, shown: Body) -> Body:
         steady: as shown last, without additive motion.
         shown: as shown last.
     """
-    carrying = (joint for joint in _CARRYING if joint in body.skeleton)
+    carrying = (joint for joint in CARRYING if joint in body.skeleton)
     added = ((joint, difference(steady.rotation(joint), shown.rotation(joint))) for joint in carrying)
     turned = {joint: multiply(body.rotation(joint), turn) for joint, turn in added}
     return body.posed(turned, add(body.root, subtract(shown.root, steady.root)))
