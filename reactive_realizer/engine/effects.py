@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from reactive_realizer.bml.extensions import Emit
 from reactive_realizer.bml.vocabulary import InterruptSpeech
@@ -16,8 +17,7 @@ from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.reactive.graph import Cell
 
 
-@dataclass(frozen=True, slots=True)
-class Reached:
+class Reached(NamedTuple):
     """A sync point was reached.
 
     Attributes:

@@ -45,32 +45,35 @@ class Owners:
     def __init__(self) -> None:
         self._order: dict[PlanUnit, int] = {}
         self._added = 0
-        self._taken: dict[PlanUnit, tuple[frozenset[str], tuple[str, ...]]] = {}
-        """The resources and the group of each unit when it was added."""
+        self._taken: dict[PlanUnit, tuple[frozenset[str], tuple[str, ...], frozenset[BodyPart]]] = {}
+        """The resources, the group and the parts of the body of each unit when it was added."""
         self._by_resource: _UnitsBy[str] = _UnitsBy()
         self._by_group: _UnitsBy[str] = _UnitsBy()
         self._by_part: dict[bool, _UnitsBy[BodyPart]] = {True: _UnitsBy(), False: _UnitsBy()}
         """By whether they accompany others."""
 
     def add(self, unit: PlanUnit) -> None:
-        """Add a unit that has begun, if it is not among them."""
+        """Add a unit that has begun, if it is not among them; one that takes nothing excludes no other one."""
         if unit in self._order:
+            return
+        resources, groups, parts = unit.resources, () if unit.group is None else (unit.group,), unit.parts
+        if not (resources or groups or parts):
             return
         self._added += 1
         self._order[unit] = self._added
-        self._taken[unit] = resources, groups = unit.resources, () if unit.group is None else (unit.group,)
+        self._taken[unit] = resources, groups, parts
         self._by_resource.add(unit, resources)
         self._by_group.add(unit, groups)
-        self._by_part[unit.accompanies].add(unit, unit.parts)
+        self._by_part[unit.accompanies].add(unit, parts)
 
     def remove(self, unit: PlanUnit) -> None:
         """Remove a unit, if it is among them."""
         if self._order.pop(unit, None) is None:
             return
-        resources, groups = self._taken.pop(unit)
+        resources, groups, parts = self._taken.pop(unit)
         self._by_resource.remove(unit, resources)
         self._by_group.remove(unit, groups)
-        self._by_part[unit.accompanies].remove(unit, unit.parts)
+        self._by_part[unit.accompanies].remove(unit, parts)
 
     def kept_from(self, unit: PlanUnit, time: GlobalTime) -> frozenset[str]:
         """The resources that others keep from a unit at a time; what accompanies keeps none from what was asked for."""

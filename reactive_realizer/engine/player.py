@@ -68,14 +68,13 @@ class Player:
         self._added += 1
         self._units[unit] = self._added
         unit.wake = partial(self.note, unit)
-        self._agenda.add(unit)
+        self._follow(unit)
 
     def note(self, unit: PlanUnit) -> None:
         """Note that a unit has changed."""
-        if unit in self._units and unit.state is UnitState.IN_EXEC:
-            self._note_begin(unit)
         self._touched.append(unit)
-        self._agenda.note(unit)
+        if unit in self._units:
+            self._follow(unit)
 
     def remove(self, unit: PlanUnit) -> None:
         """Remove a unit from the plan, if it is in the plan."""
@@ -96,6 +95,8 @@ class Player:
             self._fire(unit, now, reached)
         for unit in starting:
             if not self._held(unit, now, previous):
+                unit.begin()
+                self._note_begin(unit)
                 self._fire(unit, now, reached)
         self._forget_ended()
         return tuple(reached)
@@ -133,6 +134,15 @@ class Player:
         self._forget_ended()
         return dropped
 
+    def _follow(self, unit: PlanUnit) -> None:
+        """Have a unit on the agenda that has changed; most have no time there before their blocks start."""
+        if unit.state is UnitState.PENDING and not unit.awaited():
+            self._agenda.wake()
+            return
+        if unit.state is UnitState.IN_EXEC:
+            self._note_begin(unit)
+        self._agenda.add(unit)
+
     def _due(self, now: GlobalTime) -> tuple[list[PlanUnit], list[PlanUnit]]:
         """The playing units with due points, and those that begin, in a unique order.
 
@@ -148,8 +158,8 @@ class Player:
     def _held(self, unit: PlanUnit, now: GlobalTime, previous: GlobalTime) -> bool:
         """Whether a due unit cannot begin now: it is dropped, or others have to end first in this round."""
         start = unit.points[0].peg.value
-        if start is None or not unit.due(now):
-            return False
+        if start is None or unit.state is not UnitState.LURKING:
+            return True
         if (fault := unit.refusal()) is not None:
             self._drop(unit, fault, now)
             return True
@@ -163,9 +173,6 @@ class Player:
         return bool(staying or leaving)
 
     def _fire(self, unit: PlanUnit, now: GlobalTime, reached: list[Reached]) -> None:
-        if unit.due(now):
-            unit.begin()
-            self._note_begin(unit)
         due = unit.due_points(now)
         try:
             unit.fire(due, now)

@@ -1,7 +1,9 @@
 """Feedback as data (BML 1.0, with the status of BMLA, and falls)."""
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.units import BlockTime, GlobalTime
@@ -27,8 +29,7 @@ class EmittedEvent:
     content: str
 
 
-@dataclass(frozen=True, slots=True)
-class SyncPointProgress:
+class SyncPointProgress(NamedTuple):
     """A behavior reached a sync point.
 
     Attributes:
@@ -42,7 +43,7 @@ class SyncPointProgress:
     sync: str
     block_time: BlockTime
     time: GlobalTime
-    details: Mapping[str, str] = field(default_factory=dict)
+    details: Mapping[str, str] = MappingProxyType({})
     event: EmittedEvent | None = None
 
 

@@ -7,14 +7,58 @@ from typing import Generic, TypeVar
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.pegboard.time_peg import TimeCell
-from reactive_realizer.pegboard.watch import Watch
 from reactive_realizer.reactive.errors import Failure
-from reactive_realizer.reactive.graph import Change
+from reactive_realizer.reactive.graph import Change, Observer
 
 T = TypeVar("T")
 
 _FEW = 32
 """Outdated entries of the heap that are left there."""
+
+
+class _Entry(Observer, Generic[T]):
+    """An item on an agenda, which observes its pegs.
+
+    Attributes:
+        number: of its last reading; what has an earlier number is outdated. 0 before it is read, and once removed.
+        time: at which it is due, as far as that is known without reading it again; None if it is unknown, or has come.
+        moved: whether it may be due later than that.
+    """
+
+    __slots__ = ("_agenda", "_pegs", "item", "moved", "number", "time")
+
+    def __init__(self, agenda: "Agenda[T]", item: T) -> None:
+        self._agenda = agenda
+        self._pegs: dict[TimeCell, None] = {}
+        self.item = item
+        self.number = 0
+        self.time: Time = None
+        self.moved = False
+
+    def follow(self, pegs: Iterable[TimeCell]) -> None:
+        """Observe these pegs, and no others any more."""
+        old, new = self._pegs, dict.fromkeys(pegs)
+        self._pegs = new
+        for peg in new:
+            if peg not in old:
+                peg.attach(self)
+        for peg in old:
+            if peg not in new:
+                peg.detach(self)
+
+    def leave(self) -> None:
+        """Observe no peg any more, and let go of the item: the heap may keep the entry for a while."""
+        self.follow(())
+        self.number = 0
+        del self.item
+
+    def notify(self, change: Change) -> None:
+        """Have the agenda note that a peg has moved."""
+        self._agenda.note_move(self, change)
+
+
+_Due = tuple[GlobalTime, int, _Entry[T]]
+"""An entry with the time at which it is due, and its number then."""
 
 
 class Agenda(Generic[T]):
@@ -40,34 +84,31 @@ class Agenda(Generic[T]):
         self.wake = wake
         self._due = due
         self._pegs = pegs
-        self._watch: Watch[T] = Watch(self._note_move)
-        self._numbers: dict[T, int] = {}
-        self._times: dict[T, GlobalTime] = {}
-        self._later: set[T] = set()
-        """The items that have moved since they were read, and may be due later than at the time that is known."""
-        self._unread: dict[T, None] = {}
-        self._items: dict[int, T] = {}
-        self._heap: list[tuple[GlobalTime, int]] = []
+        self._entries: dict[T, _Entry[T]] = {}
+        self._unread: dict[_Entry[T], None] = {}
+        self._heap: list[_Due[T]] = []
         self._number = 0
 
     def add(self, item: T) -> None:
-        """Add an item."""
-        self._items.pop(self._numbers.get(item, 0), None)
-        self._numbers[item] = 0
-        self.note(item)
+        """Add an item, or note that it has changed."""
+        entry = self._entries.get(item)
+        if entry is None:
+            entry = self._entries[item] = _Entry(self, item)
+        self._unread[entry] = None
+        self.wake()
 
     def remove(self, item: T) -> None:
         """Remove an item, if it is on the agenda."""
-        self._unread.pop(item, None)
-        self._times.pop(item, None)
-        self._later.discard(item)
-        self._watch.forget(item)
-        self._items.pop(self._numbers.pop(item, 0), None)
+        entry = self._entries.pop(item, None)
+        if entry is not None:
+            self._unread.pop(entry, None)
+            entry.leave()
 
     def note(self, item: T) -> None:
         """Note that an item has changed; an item that is not on the agenda is ignored."""
-        if item in self._numbers:
-            self._unread[item] = None
+        entry = self._entries.get(item)
+        if entry is not None:
+            self._unread[entry] = None
             self.wake()
 
     @property
@@ -78,72 +119,63 @@ class Agenda(Generic[T]):
 
     def take_due(self, now: GlobalTime) -> list[T]:
         """The items that are due, in order of time. Each is read again before the next call."""
-        due: list[tuple[GlobalTime, int, T]] = []
+        due: list[_Due[T]] = []
         try:
             self._read(now, due)
             while is_due(self._first, now):
-                time, number = heappop(self._heap)
-                item = self._items[number]
-                if item in self._later:
-                    self._unread[item] = None
+                first = heappop(self._heap)
+                if first[2].moved:
+                    self._unread[first[2]] = None
                 else:
-                    due.append((time, number, item))
+                    due.append(first)
                 if not is_due(self._first, now):
                     self._read(now, due)
         finally:
-            items = [item for _, _, item in sorted(due, key=itemgetter(0, 1))]
-            self._unread.update(dict.fromkeys(items))
-        return items
+            entries = [entry for _, _, entry in sorted(due, key=itemgetter(0, 1))]
+            self._unread.update(dict.fromkeys(entries))
+        return [entry.item for entry in entries]
 
     @property
     def _first(self) -> Time:
         """The earliest time of the items as they were read."""
         heap = self._heap
-        while heap and heap[0][1] not in self._items:
+        while heap and heap[0][1] != heap[0][2].number:
             heappop(heap)
         return heap[0][0] if heap else None
 
-    def _note_move(self, item: T, change: Change) -> None:
+    def note_move(self, entry: _Entry[T], change: Change) -> None:
         """Note that a peg of an item has moved; it is not read before the earliest time at which it can be due now."""
-        time, new = self._times.get(item), change.new
+        time, new = entry.time, change.new
         if time is None or isinstance(new, Failure):
-            self.note(item)
+            self._unread[entry] = None
         elif new is None or new >= time:
-            self._later.add(item)
-            self.wake()
+            entry.moved = True
         elif change.old == time:
-            self._times[item] = new
-            heappush(self._heap, (new, self._numbers[item]))
-            self._later.add(item)
-            self.wake()
+            entry.time = new
+            heappush(self._heap, (new, entry.number, entry))
+            entry.moved = True
         else:
-            self.note(item)
+            self._unread[entry] = None
+        self.wake()
 
-    def _read(self, now: Time = None, due: list[tuple[GlobalTime, int, T]] | None = None) -> None:
+    def _read(self, now: Time = None, due: list[_Due[T]] | None = None) -> None:
         """Read the items that have changed; those that are due now are only added to ``due``."""
         while self._unread:
-            for item in tuple(self._unread):
+            for entry in tuple(self._unread):
+                item = entry.item
                 time = self._due(item)
-                number = self._renumber(item)
-                self._later.discard(item)
-                self._times.pop(item, None)
+                self._number += 1
+                entry.number = self._number  # what the heap has with the old one is outdated
+                entry.moved = False
                 if due is not None and now is not None and time is not None and is_due(time, now):
-                    due.append((time, number, item))
+                    entry.time = None
+                    due.append((time, entry.number, entry))
                 else:
-                    self._watch.follow(item, self._pegs(item))
+                    entry.time = time
+                    entry.follow(self._pegs(item))
                     if time is not None:
-                        self._times[item] = time
-                        heappush(self._heap, (time, number))
-                del self._unread[item]
-        if len(self._heap) > 2 * len(self._numbers) + _FEW:
-            times, items = self._times, self._items
-            self._heap = [each for each in self._heap if (own := items.get(each[1])) and times.get(own) == each[0]]
+                        heappush(self._heap, (time, entry.number, entry))
+                del self._unread[entry]
+        if len(self._heap) > 2 * len(self._entries) + _FEW:
+            self._heap = [each for each in self._heap if each[2].number == each[1] and each[2].time == each[0]]
             heapify(self._heap)
-
-    def _renumber(self, item: T) -> int:
-        """Give an item a new number; the heap's entries with the old one are outdated."""
-        self._items.pop(self._numbers.get(item, 0), None)
-        self._number += 1
-        self._numbers[item] = self._number
-        self._items[self._number] = item
-        return self._number

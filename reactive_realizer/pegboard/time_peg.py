@@ -96,7 +96,8 @@ class TimePeg(Derived[Time]):
     @property
     def links(self) -> tuple[Link, ...]:
         """Its dependencies; once pinned, those that it was cut from."""
-        return tuple(_link(cell) for cell in self.dependencies) or self._cut_from
+        self.graph.settle()
+        return tuple([_link(cell) for cell in self.dependencies]) or self._cut_from
 
     @property
     def deciding(self) -> tuple[Link, ...]:
@@ -142,9 +143,10 @@ class TimePeg(Derived[Time]):
 
     def pin(self, value: Time) -> None:
         """Within a transaction, cut it from its dependencies, which are noted, and give it its last time."""
-        links = self.links
-        super().pin(value)
-        self._cut_from = links
+        if self.dependencies or value != self._value:  # many points may share it and be reached together
+            links = self.links
+            super().pin(value)
+            self._cut_from = links
 
     def detached(self, name: str, time: GlobalTime) -> "TimePeg":
         """A new peg, pinned at a time within a transaction, for one of the points that shared this one."""
@@ -455,7 +457,8 @@ class AnticipatorPeg(Source[Time]):
 
 def kind_of(peg: TimeCell) -> str:
     """The kind of a peg: offset, ratio, after, before, late, latest, block, open, wait or predicted."""
-    return peg.kind if isinstance(peg, TimePeg) else "predicted"
+    kind: str = getattr(peg, "kind", "predicted")
+    return kind
 
 
 def time_of(peg: TimeCell) -> Time:
@@ -472,8 +475,12 @@ def state_of(peg: TimeCell) -> str:
 
 
 def _link(peg: TimeCell) -> Link:
+    """The dependency on a peg that is not stale."""
     # Equivalent to `Link(...)`, in half the time: this runs for every point that is reached.
-    return _tuple(Link, (peg.name, kind_of(peg), time_of(peg), peg.stamp, weakref.ref(peg)))
+    time = peg._value
+    if type(time) is Failure:
+        time = None
+    return _tuple(Link, (peg.name, getattr(peg, "kind", "predicted"), time, peg.stamp, weakref.ref(peg)))
 
 
 def _shifted(links: Iterable[Link], distances: Iterable[float]) -> str:

@@ -9,7 +9,7 @@ from reactive_realizer.reactive.graph import Change, Observer
 T = TypeVar("T")
 
 
-class Watch(Generic[T]):
+class Watch(Observer, Generic[T]):
     """Observes the pegs of items; a peg may belong to several.
 
     Args:
@@ -18,7 +18,6 @@ class Watch(Generic[T]):
 
     def __init__(self, moved: Callable[[T, Change], object]) -> None:
         self._moved = moved
-        self._observer = Observer(self._note)
         self._pegs: dict[T, dict[TimeCell, None]] = {}
         self._items: dict[TimeCell, dict[T, None]] = {}
 
@@ -32,7 +31,7 @@ class Watch(Generic[T]):
             items = self._items.get(peg)
             if items is None:
                 self._items[peg] = {item: None}
-                peg.attach(self._observer)
+                peg.attach(self)
             else:
                 items[item] = None
         for peg in old:
@@ -57,8 +56,9 @@ class Watch(Generic[T]):
         del items[item]
         if not items:
             del self._items[peg]
-            peg.detach(self._observer)
+            peg.detach(self)
 
-    def _note(self, change: Change) -> None:
+    def notify(self, change: Change) -> None:
+        """Tell the items of a peg that has moved."""
         for item in tuple(self._items.get(change[0], ())):
             self._moved(item, change)

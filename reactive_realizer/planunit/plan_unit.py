@@ -5,7 +5,6 @@ import logging
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import cached_property
 from math import inf
 from typing import NamedTuple
 
@@ -144,6 +143,7 @@ class PlanUnit:
         self.ends_early = False
         self.state = UnitState.PENDING
         self._progress: PhaseProgress | None = None
+        self._parts: frozenset[BodyPart] | None = None
 
     # --- for subclasses
 
@@ -212,10 +212,12 @@ class PlanUnit:
         """The name of one of its sync points."""
         return PegKey(*self.block, self.behavior.id, sync)
 
-    @cached_property
+    @property
     def parts(self) -> frozenset[BodyPart]:
         """The parts of the body that its behavior moves."""
-        return parts_of(self.behavior)
+        if self._parts is None:
+            self._parts = parts_of(self.behavior)
+        return self._parts
 
     @property
     def begun(self) -> bool:
@@ -248,8 +250,8 @@ class PlanUnit:
 
     def coming(self) -> list[SyncPoint]:
         """Its points, except for those that will be cut because it ends early."""
-        end = self.points[-1].peg.value if self.points else None
-        if not self.ends_early or end is None:
+        end = self.points[-1].peg.value if self.ends_early and self.points else None
+        if end is None:
             return self.points
         kept = {*OPEN, *(due.point.id for due in self.due_at_cut(end, end=False))}
         return [point for point in self.points if point.fired or point.id in kept]
@@ -309,20 +311,29 @@ class PlanUnit:
             return self.points[0].peg.value
         if self.state is not UnitState.IN_EXEC:
             return None
-        return min(
-            [time for point in self.points if not point.fired and (time := point.peg.value) is not None], default=None
-        )
+        earliest: Time = None
+        for point in self.points:
+            if not point.fired and (time := point.peg.value) is not None and (earliest is None or time < earliest):
+                earliest = time
+        return earliest
 
     def awaited(self) -> list[TimePeg]:
         """The pegs that it waits for: that of its start once its block plays, and then those of the points ahead."""
         if self.state is UnitState.PENDING:
             return []
-        return [point.peg for point in (self.ahead() if self.begun else self.points[:1])]
+        if not self.begun:
+            return [point.peg for point in self.points[:1]]
+        return [point.peg for point in self.points if not point.fired]
 
     def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
         """Two points, with their times, that are out of order (thesis 7.15), if there are any; tied ones first."""
         known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
-        if all(one[1] <= other[1] for one, other in itertools.pairwise(known)):
+        latest = -inf
+        for _, time in known:
+            if time < latest:
+                break
+            latest = time
+        else:
             return None
         for points in ([each for each in known if each[0].tied], known):
             for (earlier, time), (later, late) in itertools.pairwise(points):
@@ -437,7 +448,9 @@ class PlanUnit:
         due: list[DuePoint] = []
         successor: Time = None
         for point in reversed(self.ahead() if end else self.ahead()[:-1]):
-            time = successor if point.peg.value is None else point.peg.value
+            time = point.peg.value
+            if time is None:
+                time = successor
             if time is not None and (successor is not None or is_due(time, now)):
                 due.append(DuePoint(point, time))
                 successor = time
@@ -447,7 +460,8 @@ class PlanUnit:
         """Fire points that are due ``now``."""
         for point, time in due:
             self._fire(point, time)
-        if due and (ahead := self.ahead()):
+        self._progress = None
+        if due and any(self.shortest) and (ahead := self.ahead()):
             late = now - due[-1].time > LATE
             since, need = now if late else due[-1].time, self._needs()[-len(ahead) - 1]
             self._progress = PhaseProgress(since, ahead[0].peg.value, need)

@@ -1,6 +1,7 @@
 """Cells and the graph that propagates changes through them: many writes, one propagation, one record."""
 
 import logging
+from abc import abstractmethod
 from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -129,19 +130,22 @@ class Cell(Generic[T]):
 
 
 class Observer:
-    """What is called after each commit that changed a cell, and when the cell is disposed of."""
+    """What is notified after each commit that changed a cell, and when the cell is disposed of."""
 
-    __slots__ = ("ended", "notify")
+    __slots__ = ()
 
-    def __init__(self, notify: Callable[["Change"], object], ended: Callable[[], object] = lambda: None) -> None:
-        self.notify = notify
-        self.ended = ended
+    @abstractmethod
+    def notify(self, change: "Change") -> None:
+        """A commit has changed a cell."""
+
+    def ended(self) -> None:
+        """A cell was disposed of."""
 
 
 class Subscription(Observer):
     """An observer of one cell, until it is disposed of; disposing twice is harmless."""
 
-    __slots__ = ("_observers",)
+    __slots__ = ("_ended", "_notify", "_observers")
 
     def __init__(
         self,
@@ -149,9 +153,18 @@ class Subscription(Observer):
         notify: Callable[["Change"], object],
         ended: Callable[[], object],
     ) -> None:
-        super().__init__(notify, ended)
+        self._notify = notify
+        self._ended = ended
         self._observers = observers
         observers[self] = None
+
+    def notify(self, change: "Change") -> None:
+        """Call the function for changes."""
+        self._notify(change)
+
+    def ended(self) -> None:
+        """Call the function for the end."""
+        self._ended()
 
     def dispose(self) -> None:
         """Stop observing."""

@@ -25,6 +25,8 @@ from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.solution import Loss
 
+_tuple = tuple.__new__
+
 _BEFORE_BEHAVIORS, _AFTER_BEHAVIORS = -1.0, float("inf")
 _BLOCK_ORDER = {
     "start": (_BEFORE_BEHAVIORS, 0),
@@ -48,19 +50,19 @@ class BlockFeedback:
 
     def sync_point_reached(self, reached: Reached) -> None:
         """Report that a behavior reached a sync point, unless it is one that nobody asked for."""
-        unit, time = reached.unit, reached.time
+        unit, point, time = reached
         block = self._blocks.get(unit.block)
-        if block is None or block.start.value is None or reached.point.id in unit.unreported:
+        start = None if block is None else block.start.value
+        if block is None or start is None or point.id in unit.unreported:
             return
-        local = BlockTime(time - block.start.value)
         emitted = reached.emits
         event = None if emitted is None else EmittedEvent(emitted.event, emitted.content)
-        point = reached.point
-        message = SyncPointProgress(*unit.block, unit.behavior.id, point.id, local, time, point.details, event)
-        sync = unit.timing.points.index(reached.point.id)
+        behavior, local = unit.behavior, BlockTime(time - start)
+        # Equivalent to `SyncPointProgress(...)`, in half the time: this runs for every point that is reached.
+        message = _tuple(SyncPointProgress, (*unit.block, behavior.id, point.id, local, time, point.details, event))
+        sync = unit.timing.points.index(point.id)
         # A point that passed before its block started is reported after that start.
-        order = _order(block, max(time, block.start.value), unit.behavior.order, sync)
-        self._feedback.add_progress(message, order)
+        self._feedback.add_progress(message, _order(block, max(time, start), behavior.order, sync))
 
     def fall(self, unit: PlanUnit, time: GlobalTime) -> None:
         """Report that the figure has fallen that a behavior moves by forces."""
@@ -113,5 +115,7 @@ def _order(block: BMLBlock, time: GlobalTime, behavior: float, sync: int) -> Pro
     A block that is revoked before its predicted start counts as one that started when it ended. Times that are reported
     as equal are equal here too, so that rounding does not put an effect before its cause.
     """
-    start = time if block.start.value is None else min(block.start.value, time)
-    return ProgressOrder(as_reported(time), as_reported(start), block.arrival, behavior, sync)
+    start = block.start.value
+    reported = as_reported(time)
+    block_start = reported if start is None or start >= time else as_reported(start)
+    return ProgressOrder(reported, block_start, block.arrival, behavior, sync)

@@ -85,7 +85,7 @@ class UnitLifecycle:
                 each.point.peg.pin(each.time)
                 if each.emits is not None:
                     self._board.occur(EVENTS, each.emits.event, each.time)
-            hurried = dict.fromkeys(each.unit for each in reached if each.unit.live and any(each.unit.shortest))
+            hurried = dict.fromkeys(each.unit for each in reached if any(each.unit.shortest) and each.unit.live)
             self._hold_back(hurried)
             self._keep_order(hurried)
         for each in reached:

@@ -52,7 +52,8 @@ class LogEntry:
 class FeedbackLog:
     """Numbers feedback messages from 1 and keeps the newest.
 
-    A tick writes only so much of its feedback. The rest is written between ticks, in the same order.
+    A tick writes only so much of its feedback. The rest is written between ticks, in the same order: a tick gives turns
+    to other tasks while its engines play, and none of these is for feedback.
 
     Args:
         session: id of this run.
@@ -77,6 +78,8 @@ class FeedbackLog:
         self._left = _AT_ONCE
         self._waiting: deque[Report | GlobalTime] = deque()
         self._parts = 0
+        self._steps: Iterator[None] = iter(())
+        self._turn: asyncio.Handle | None = None
 
     def append(self, report: Report) -> None:
         """Numbers a message, keeps it and publishes it, after all earlier ones."""
@@ -87,11 +90,17 @@ class FeedbackLog:
             self._left -= parts
             self._publish(report, "".join(xml_parts(report.message, self._epoch)))
 
+    def begin_tick(self) -> None:
+        """Writes nothing until `end_tick`."""
+        if self._turn is not None:
+            self._turn.cancel()
+
     def end_tick(self, time: GlobalTime) -> None:
         """Publishes the time of a tick, after all of its messages."""
         self._left = _AT_ONCE
         if self._waiting:
             self._wait(time, 1)
+            self._turn = asyncio.get_running_loop().call_soon(self._take_turn)
         else:
             self.ticks.publish(time)
 
@@ -99,17 +108,16 @@ class FeedbackLog:
         self._waiting.append(item)
         self._parts += parts
         if len(self._waiting) == 1:
-            asyncio.get_running_loop().call_soon(self._take_turn, self._write_waiting())
+            self._steps = self._write_waiting()
 
-    def _take_turn(self, steps: Iterator[None]) -> None:
+    def _take_turn(self) -> None:
         loop = asyncio.get_running_loop()
         end, least = loop.time() + _TURN, self._parts // _TURNS
-        for written, _ in enumerate(steps, 1):
+        for written, _ in enumerate(self._steps, 1):
             self._parts -= 1
             if written >= least and loop.time() >= end:
                 break
-        if self._waiting:
-            loop.call_soon(self._take_turn, steps)
+        self._turn = loop.call_soon(self._take_turn) if self._waiting else None
 
     def _write_waiting(self) -> Iterator[None]:
         """Writes and publishes what waits, a part of a message in each step."""

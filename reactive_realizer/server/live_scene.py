@@ -99,6 +99,7 @@ class LiveScene:
 
     async def step(self, tick: Tick) -> None:
         """Plays one tick and publishes its results."""
+        self.feedback.begin_tick()
         await self.realizer.step(tick)
         self.tick = tick.number
         self.feedback.end_tick(tick.time)

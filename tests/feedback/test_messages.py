@@ -2,7 +2,6 @@
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -210,7 +209,7 @@ def test_a_listener_that_fails_does_not_stop_the_others(
 
 @pytest.mark.parametrize("name", ["a b", "9th", 'x"y', "a:b", "", "<", "ö", "-"])
 def test_an_engine_may_name_an_attribute_of_its_feedback_as_it_likes(name: str) -> None:
-    message = replace(progress("h", 0.0), details={name: "value"})
+    message = progress("h", 0.0)._replace(details={name: "value"})
     assert "value" in etree.fromstring(to_xml(message)).attrib.values()
 
 

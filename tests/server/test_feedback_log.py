@@ -86,8 +86,9 @@ async def test_what_waits_is_written_in_one_turn_if_there_is_time(monkeypatch: p
     log, told = opened()
     for _ in range(1000):
         log.append(warning("one of many"))
+    log.end_tick(TICK)
     assert len(told) < 100
-    assert await turns_until(told, 1000) <= 2
+    assert await turns_until(told, 1001) <= 2
 
 
 @pytest.mark.usefixtures("slow")
@@ -95,9 +96,24 @@ async def test_many_messages_of_a_tick_are_written_in_turns() -> None:
     log, told = opened()
     for number in range(1000):
         log.append(warning(str(number)))
+    log.end_tick(TICK)
     assert len(told) < 100
-    assert 50 < await turns_until(told, 1000) < 500
+    assert 50 < await turns_until(told, 1001) < 500
     assert [entry.seq for entry in log.after(0)] == list(range(1, 1001))
+
+
+@pytest.mark.usefixtures("slow")
+async def test_nothing_is_written_while_the_engines_of_the_next_tick_play() -> None:
+    log, told = opened()
+    log.append(prediction(1000))
+    log.end_tick(TICK)
+    log.begin_tick()
+    with pytest.raises(AssertionError):
+        await turns_until(told, 1)
+    log.append(warning("of the next tick"))
+    log.end_tick(TICK)
+    assert await turns_until(told, 4) > 50
+    assert told == ["prediction", "tick", "warning", "tick"]
 
 
 async def test_a_listener_that_fails_does_not_end_the_feedback() -> None:
@@ -109,5 +125,6 @@ async def test_a_listener_that_fails_does_not_end_the_feedback() -> None:
     log.subscribers.subscribe(fail)
     log.append(prediction(100))
     log.append(warning("after it"))
-    await turns_until(told, 2)
-    assert told == ["prediction", "warning"]
+    log.end_tick(TICK)
+    await turns_until(told, 3)
+    assert told == ["prediction", "warning", "tick"]

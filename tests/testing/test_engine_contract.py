@@ -32,7 +32,7 @@ class TickTimed(WaitEngine):
 
     def play(self, tick: Tick) -> Play:
         play = super().play(tick)
-        return replace(play, reached=tuple(replace(each, time=tick.time) for each in play.reached))
+        return replace(play, reached=tuple(each._replace(time=tick.time) for each in play.reached))
 
 
 class Repeating(WaitEngine):
@@ -197,7 +197,7 @@ class Inattentive(WaitEngine):
 
     def add(self, unit: PlanUnit) -> None:
         super().add(unit)
-        self.player._agenda._watch.follow = lambda item, pegs: None  # type: ignore[method-assign]
+        self.player._agenda.note_move = lambda entry, change: None  # type: ignore[method-assign]
 
 
 class Nervous(WaitEngine):
