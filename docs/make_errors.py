@@ -48,6 +48,7 @@ _TITLES = {
     "realizer": "Running and replaying a session",
     "assembly": "Assembling a scene",
     "server": "The server",
+    "export": "Using a performance elsewhere",
     "conformance": "Conformance",
     "cli": "The command line",
     "anticipators": "Anticipators",

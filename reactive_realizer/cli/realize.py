@@ -4,8 +4,8 @@ import argparse
 import asyncio
 import re
 import sys
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import AsyncIterator, Iterable, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -13,11 +13,11 @@ from tempfile import TemporaryDirectory
 from typing import IO
 
 from reactive_realizer import __version__
-from reactive_realizer.assembly.scene import open_scene
+from reactive_realizer.assembly.scene import Scene, open_scene
 from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.cli.output import Explainer, FeedbackWriter, print_warning
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
-from reactive_realizer.clock.clock import ManualClock, SystemClock
+from reactive_realizer.clock.clock import Clock, ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.sound_track import SoundTrack
 from reactive_realizer.errors import Fault
@@ -28,7 +28,7 @@ from reactive_realizer.export.recorded_motion import MotionRecorder
 from reactive_realizer.export.text_grid import PlayedLog
 from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
-from reactive_realizer.realizer.session import replay, run_until_done
+from reactive_realizer.realizer.session import AfterTick, no_wait, replay, run_until_done
 from reactive_realizer.server.recording import read_recording
 
 _TIMED = re.compile(rf"(.+)@({NUMBER})")
@@ -64,10 +64,25 @@ def input_file(text: str) -> InputFile:
     return InputFile(Path(found[1]), seconds(found[2])) if found else InputFile(Path(text), GlobalTime(0.0))
 
 
+def video_size(text: str) -> tuple[int, int]:
+    """Parse ``1280x720``.
+
+    Raises:
+        ValueError: not two even numbers of pixels.
+    """
+    width, height = (int(part) for part in text.split("x"))
+    if not all(0 < each <= _MOST_PIXELS and each % 2 == 0 for each in (width, height)):
+        raise ValueError(text)
+    return width, height
+
+
 _UNTIL = 600.0
-_OUTPUTS = ("feedback", "frames", "bvh", "glb", "audio", "textgrid", "explain")
+_MOST_PIXELS = 4096
+_SIZE = (1280, 720)
+_SHOTS = ("face", "bust", "upper", "full")
+_OUTPUTS = ("feedback", "frames", "bvh", "glb", "audio", "textgrid", "video", "explain")
 _MOTION_WRITERS = {"frames": write_npz, "bvh": write_bvh, "glb": write_glb}
-_WITH_REPLAY = ("replay", *_OUTPUTS, "verbose", "log_format", "run")
+_WITH_REPLAY = ("replay", *_OUTPUTS, "shot", "video_size", "verbose", "log_format", "run")
 """The options that ``--replay`` allows; all others are in the recording."""
 
 
@@ -125,6 +140,13 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
         metavar="FILE.TextGrid",
         help="write when which word and behavior played, for Praat and ELAN",
     )
+    parser.add_argument(
+        "--video", type=Path, metavar="FILE.mp4", help="film the page, 25 pictures a second, with the sound"
+    )
+    parser.add_argument("--shot", choices=_SHOTS, default="upper", help="what a video shows of the characters")
+    parser.add_argument(
+        "--video-size", type=video_size, default=_SIZE, metavar="WIDTHxHEIGHT", help="the size of a video, pixels"
+    )
     parser.add_argument("--explain", type=Path, metavar="FILE", help="write why each sync point has its time, JSON")
 
 
@@ -151,6 +173,8 @@ def _check_combination(parser: argparse.ArgumentParser, options: argparse.Namesp
     fixed = [name for name in vars(options) if name not in _WITH_REPLAY and _is_given(parser, options, name)]
     if options.replay and fixed:
         parser.error(f"--replay does not allow {', '.join(fixed)}: the recording sets them")
+    if options.video and options.clock == "real":
+        parser.error("--video requires --clock virtual: pictures take longer than they last")
 
 
 def _is_given(parser: argparse.ArgumentParser, options: argparse.Namespace, name: str) -> bool:
@@ -161,9 +185,10 @@ def _is_given(parser: argparse.ArgumentParser, options: argparse.Namespace, name
 async def _realize(options: argparse.Namespace) -> int:
     async with open_scene(scene_options(options)) as scene:
         unread = sum(not _put(scene.realizer, entry) for entry in sorted(options.items, key=lambda e: e.time))
+        clock = ManualClock() if options.clock == "virtual" else SystemClock()
         with _written(options, scene.realizer):
-            clock = ManualClock() if options.clock == "virtual" else SystemClock()
-            await run_until_done(scene.realizer, clock, options.until)
+            async with _filmed(options, scene, clock) as after_tick:
+                await run_until_done(scene.realizer, clock, options.until, after_tick)
         _report_left_out(options.items, scene.realizer.time)
         _report_cut_short(scene.realizer, options.until)
         return 1 if unread else _status(scene.realizer)
@@ -188,7 +213,8 @@ async def _replay(options: argparse.Namespace) -> int:
     with TemporaryDirectory() as folder:
         async with open_scene(recording.options(Path(folder))) as scene:
             with _written(options, scene.realizer):
-                await replay(scene.realizer, recording.ticks)
+                async with _filmed(options, scene, ManualClock()) as after_tick:
+                    await replay(scene.realizer, recording.ticks, after_tick)
             return _status(scene.realizer)
 
 
@@ -221,6 +247,18 @@ def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
         log.write(options.textgrid, realizer.time)
     if explainer is not None:
         explainer.write(options.explain)
+
+
+@asynccontextmanager
+async def _filmed(options: argparse.Namespace, scene: Scene, clock: Clock) -> AsyncIterator[AfterTick]:
+    """Films the session, if the options ask for it."""
+    if not options.video:
+        yield no_wait
+        return
+    from reactive_realizer.export.video import Picture, filmed  # it needs the server
+
+    async with filmed(scene, clock, options.video, Picture(options.shot, options.video_size)) as after_tick:
+        yield after_tick
 
 
 def _put(realizer: Realizer, entry: InputFile) -> bool:

@@ -37,13 +37,22 @@ class SoundTrack:
             path: of the file.
             end: of the session, s. The file lasts until then, or until the last fade.
         """
+        channels, pieces = self.mixed(end)
+        with soundfile.SoundFile(path, "w", RATE, channels, "PCM_16", format="WAV") as file:
+            for piece in pieces:
+                file.write(piece)
+
+    def mixed(self, end: GlobalTime) -> tuple[int, Iterator[Samples]]:
+        """The number of channels, and the mix in pieces: (length, channels) float32, 48 kHz, which may exceed -1..1.
+
+        Args:
+            end: as for `write`.
+        """
         sounds = (each for each in self._sounds.by_id.values() if each.heard_from < inf)
         heard = sorted(sounds, key=lambda each: each.heard_from)
         length = _index(max((end, *(each.faded_at for each in heard))))
         channels = max((each.channels for each in heard), default=1)
-        with soundfile.SoundFile(path, "w", RATE, channels, "PCM_16", format="WAV") as file:
-            for piece in _mixed(heard, length, channels):
-                file.write(piece)
+        return channels, _mixed(heard, length, channels)
 
 
 def _mixed(heard: list[PlayedSound], length: int, channels: int) -> Iterator[Samples]:

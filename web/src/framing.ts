@@ -5,6 +5,14 @@ import type { Position } from "./protocol";
 /** How much of the characters the camera shows. */
 export type Shot = "face" | "bust" | "upper" | "full";
 
+const SHOTS: readonly Shot[] = ["face", "bust", "upper", "full"];
+
+/** The shot of a film that the page's address asks for (`?film=upper`); null if it asks for none. */
+export function shotOf(address: string): Shot | null {
+  const asked = new URL(address).searchParams.get("film");
+  return asked === null ? null : (SHOTS.find((shot) => shot === asked) ?? "upper");
+}
+
 /** A character as the camera sees it: places in the world, m. */
 export interface Figure {
   crown: Position;

@@ -1,4 +1,6 @@
 import { makeTabs } from "./dom";
+import { Film } from "./film";
+import { shotOf } from "./framing";
 import { StatusPanel } from "./panels/status";
 import type { Position } from "./protocol";
 import type { SpeechRecord } from "./speech";
@@ -6,6 +8,7 @@ import { Viewer } from "./viewer";
 import { type Quality, qualityOf } from "./viewport";
 
 const STREAMS = "feedback,audio,sound,frames,board";
+const FILM_STREAMS = "audio,frames";
 
 /** The state of the page as browser tests read it, from `window.viewer`; nothing in it can be changed. */
 export interface ViewerState {
@@ -27,13 +30,15 @@ export interface ViewerState {
 declare global {
   interface Window {
     viewer?: ViewerState;
+    /** Instead of the viewer, for the pictures of a video. */
+    film?: Film;
   }
 }
 
-function socketAddress(): URL {
+function socketAddress(streams: string): URL {
   const address = new URL("ws", document.baseURI);
   address.protocol = address.protocol.replace("http", "ws");
-  address.search = new URLSearchParams({ streams: STREAMS }).toString();
+  address.search = new URLSearchParams({ streams }).toString();
   return address;
 }
 
@@ -60,12 +65,18 @@ function stateOf(viewer: Viewer): ViewerState {
   });
 }
 
-makeTabs(["feedback-tab", "pegs-tab"]);
-const status = new StatusPanel();
-try {
-  const viewer = new Viewer(socketAddress(), qualityOf(location.href), status);
+function startViewer(status: StatusPanel): void {
+  makeTabs(["feedback-tab", "pegs-tab"]);
+  const viewer = new Viewer(socketAddress(STREAMS), qualityOf(location.href), status);
   window.viewer = stateOf(viewer);
   viewer.start();
+}
+
+const status = new StatusPanel();
+try {
+  const shot = shotOf(location.href);
+  if (shot === null) startViewer(status);
+  else window.film = new Film(socketAddress(FILM_STREAMS), qualityOf(location.href), shot);
 } catch (error) {
   // Most likely the browser has no WebGL 2.
   status.failed(error);

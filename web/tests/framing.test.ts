@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { PerspectiveCamera, Vector3 } from "three";
 
-import { type Figure, framing, type Shot } from "../src/framing";
+import { type Figure, framing, type Shot, shotOf } from "../src/framing";
 import type { Position } from "../src/protocol";
 
 const STANDING: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0] };
@@ -50,5 +50,12 @@ describe("the framing", () => {
       const places = [STANDING, beside].map(({ crown }) => seen(crown, shot, [STANDING, beside], aspect));
       for (const { x, y } of places) expect(Math.max(Math.abs(x), Math.abs(y))).toBeLessThan(1);
     }
+  });
+});
+
+describe("the shot of a film", () => {
+  it("is that of the address, the upper body for an unknown one, and none if no film is asked for", () => {
+    const asked = ["http://host/?film=face", "http://host/?film=feet", "http://host/?quality=low"];
+    expect(asked.map(shotOf)).toEqual(["face", "upper", null]);
   });
 });
