@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import AsyncIterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import ceil, floor
 from typing import Self
 
@@ -24,11 +24,16 @@ class Tick:
         number: n; the tick's time is n / RATE, the decimal fraction itself rather than a sum of steps.
         previous: time of the previous tick, s; -1 for the first.
         frame: whether a pose is to be composed.
+        time: seconds on the realizer's clock.
     """
 
     number: int
     previous: GlobalTime
     frame: bool = False
+    time: GlobalTime = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "time", tick_time(self.number))
 
     @classmethod
     def following(cls, last: "Tick | None", number: int) -> Self:
@@ -46,11 +51,6 @@ class Tick:
     def left_out(self) -> range:
         """The numbers of the ticks that were skipped since the previous one, because this one is late."""
         return range(max(0, round(self.previous * RATE) + 1), self.number)
-
-    @property
-    def time(self) -> GlobalTime:
-        """Seconds on the realizer's clock."""
-        return tick_time(self.number)
 
 
 def tick_time(number: int) -> GlobalTime:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 
 _BOTH = "browDown browOuterUp cheekSquint eyeBlink eyeLookDown eyeLookIn eyeLookOut eyeLookUp eyeSquint eyeWide"
 _BOTH += " mouthDimple mouthFrown mouthLowerDown mouthPress mouthSmile mouthStretch mouthUpperUp noseSneer"
@@ -49,6 +50,7 @@ _SIDES = {"l": "left", "r": "right"}
 _OCULUS_VOWELS = {"I": "ih", "O": "oh", "U": "ou"}
 
 
+@lru_cache(4096)
 def plain(name: str) -> str:
     """Return a name without case and punctuation; an `L` or `R` at its end that stands alone is written out."""
     low = name.lower()

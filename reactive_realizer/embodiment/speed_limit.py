@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Collection
+from functools import lru_cache
 
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.feet import depth, drawn, feet, leg, soles, walks
@@ -63,7 +64,7 @@ def slowed(shown: JointRotations, wanted: JointRotations, duration: float) -> di
 
 def _held_back(shown: JointRotations, wanted: JointRotations, duration: float) -> dict[str, Quat]:
     """Return the rotations of the joints that would turn faster than their limits."""
-    within = {speed: math.cos(0.5 * speed * duration) for speed in _ALL_SPEEDS}
+    within = _within(duration)
     return {
         joint: _toward(start, goal, fastest(joint) * duration)
         for joint, goal in wanted.items()
@@ -72,6 +73,12 @@ def _held_back(shown: JointRotations, wanted: JointRotations, duration: float) -
         and abs(start[0] * goal[0] + start[1] * goal[1] + start[2] * goal[2] + start[3] * goal[3])
         < within[_SPEEDS.get(joint, _LIMB)]
     }
+
+
+@lru_cache(16)  # nearly all frames are equally long
+def _within(duration: float) -> dict[float, float]:
+    """Return, for each speed limit, the least product of rotations that are no further apart than it allows."""
+    return {speed: math.cos(0.5 * speed * duration) for speed in _ALL_SPEEDS}
 
 
 class SpeedLimit:

@@ -148,6 +148,8 @@ class GuardedEngine:
             check_play(output.effects)
         except FAILURES as failure:
             return Output(effects=self._drop_all(tick.time, failure))
+        if output.eyes is None and output.dynamics is None:
+            return output
         return replace(output, eyes=self._guarded_eyes(output.eyes), dynamics=self._guarded_dynamics(output.dynamics))
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:

@@ -119,6 +119,8 @@ class Agenda(Generic[T]):
 
     def take_due(self, now: GlobalTime) -> list[T]:
         """The items that are due, in order of time. Each is read again before the next call."""
+        if not self._unread and not is_due(self._first, now):
+            return []
         due: list[_Due[T]] = []
         try:
             self._read(now, due)

@@ -53,6 +53,8 @@ logger = logging.getLogger(__name__)
 
 _MOST_ROUNDS = 100
 
+_CORES = os.cpu_count() or 1
+
 FramesListener = Callable[[Mapping[str, Frame]], None]
 AudioListener = Callable[[AudioChange], None]
 EntryListener = Callable[[TickInputs], None]
@@ -343,6 +345,8 @@ class Realizer:
 
     def _read(self, entered: TickInputs) -> TickInputs:
         """The inputs of a tick with their documents parsed."""
+        if not any(isinstance(each, BmlText) for each in entered.inputs):
+            return entered
         inputs = (
             self.read(each) if isinstance(each, BmlText) and each.parsed is None else each for each in entered.inputs
         )
@@ -445,7 +449,7 @@ class Realizer:
         ]
         simulations = [simulation for character, own in shown for simulation in character.move(time, own)]
         # One thread a core: more of them would only wait for the interpreter's lock.
-        threads, waiting = min(os.cpu_count() or 1, len(simulations)), iter(simulations)
+        threads, waiting = min(_CORES, len(simulations)), iter(simulations)
         await asyncio.gather(*(asyncio.to_thread(_call_all, waiting) for _ in range(threads)))
         # Eyes look at the positions that other characters, and the character's own hands, have in this frame.
         frames = {character.id: character.look(own) for character, own in shown}

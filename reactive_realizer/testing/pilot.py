@@ -22,7 +22,7 @@ from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.testing.feedback_list import FeedbackList
 
 _TURNS = 5
-"""Turns of the event loop after a tick, in which slow work takes notice of what has happened."""
+"""Turns of the event loop after a tick, in which slow work that is not waited for takes notice of what has happened."""
 
 
 class RealizerPilot:
@@ -131,7 +131,7 @@ class RealizerPilot:
         await self.realizer.step(Tick(self._number, previous, self._number % FRAME_EVERY == 0))
         if self.patient:
             await self.realizer.settle()
-        for _ in range(_TURNS):
+        for _ in range(1 if self.patient else _TURNS):
             await asyncio.sleep(0)
         self._number += 1
 
