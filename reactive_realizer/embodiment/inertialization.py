@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.body import Body, JointRotations, Skeleton
 from reactive_realizer.embodiment.joints import EYES, LOWER_BODY
 from reactive_realizer.embodiment.quaternion import (
     IDENTITY,
@@ -89,10 +89,10 @@ class Offset(NamedTuple):
 
 
 class _Sample(NamedTuple):
-    """A body at a time, s."""
+    """A pose at a time, s. A body would keep its transforms alive, too."""
 
     time: GlobalTime
-    body: Body
+    pose: JointRotations
 
 
 class Inertialization:
@@ -138,7 +138,7 @@ class Inertialization:
 
     def note_shown(self, body: Body, now: GlobalTime) -> None:
         """Note what was shown in the end: limits of speed, or forces, may have changed it."""
-        self._shown = (_Sample(now, body), *self._shown[:2])
+        self._shown = (_Sample(now, body.pose), *self._shown[:2])
 
     def _note_switches(self, goal: Body, now: GlobalTime) -> None:
         for joint, until in self._fresh.items():
@@ -149,7 +149,7 @@ class Inertialization:
 
     def _moves(self, joint: str) -> bool:
         """Return whether a joint has an offset, or moved in the last frame: a motion that begins at rest has none."""
-        last, *before = (each.body.rotation(joint) for each in self._shown)
+        last, *before = (each.pose.get(joint, IDENTITY) for each in self._shown)
         return joint in self._offsets or any(angle(difference(turn, last)) > _NEAR for turn in before[:1])
 
     def _set_offset(self, joint: str, until: GlobalTime, goals: tuple[Body, Body], now: GlobalTime) -> None:
@@ -167,7 +167,7 @@ class Inertialization:
             return
         was, goes = (body.rotation(joint) for body in goals)
         recent = [each for each in self._shown if now - each.time <= _GAP] or self._shown[:1]
-        turns = [(each.time, each.body.rotation(joint)) for each in recent]
+        turns = [(each.time, each.pose.get(joint, IDENTITY)) for each in recent]
         if was == goes and all(turn == goes for _, turn in turns):
             return
         turn, velocity, acceleration = _derivatives(_turns(was, goes, turns, now))

@@ -119,15 +119,14 @@ def _over(body: Body, layers: Collection[Layer]) -> Body:
         return body
     pose, root = dict(body.pose), body.root
     for layer in layers:
-        rotations = _known(layer.rotations, pose, body.skeleton)
         if layer.whole:
-            pose.update(rotations)
+            pose.update(layer.rotations)
         else:
-            for joint, goal in rotations.items():
+            for joint, goal in layer.rotations.items():
                 pose[joint] = slerp(pose.get(joint, IDENTITY), goal, layer.weight_of(joint))
         if layer.root is not None:
             root = add(root, scale(subtract(layer.root, root), layer.weight_of(ROOT)))
-    return Body(body.skeleton, pose, root)
+    return Body(body.skeleton, _known(pose, body), root)
 
 
 def _turned_further(body: Body, layers: Collection[Layer]) -> Body:
@@ -135,21 +134,20 @@ def _turned_further(body: Body, layers: Collection[Layer]) -> Body:
         return body
     pose, root = dict(body.pose), body.root
     for layer in layers:
-        rotations = _known(layer.rotations, pose, body.skeleton)
-        if not layer.whole:
-            rotations = {joint: power(turn, layer.weight_of(joint)) for joint, turn in rotations.items()}
-        for joint, turn in rotations.items():
-            pose[joint] = multiply(pose.get(joint, IDENTITY), turn)
+        whole = layer.whole
+        for joint, turn in layer.rotations.items():
+            part = turn if whole else power(turn, layer.weight_of(joint))
+            pose[joint] = multiply(pose.get(joint, IDENTITY), part)
         if layer.root is not None:
             root = add(root, scale(layer.root, layer.weight_of(ROOT)))
-    return Body(body.skeleton, pose, root)
+    return Body(body.skeleton, _known(pose, body), root)
 
 
-def _known(rotations: Mapping[str, Quat], pose: Mapping[str, Quat], skeleton: Skeleton) -> Mapping[str, Quat]:
-    # The usual case: the pose has all of them.
-    if rotations.keys() <= pose.keys():
-        return rotations
-    return {joint: turn for joint, turn in rotations.items() if joint in skeleton}
+def _known(pose: dict[str, Quat], body: Body) -> dict[str, Quat]:
+    """Return a pose that layers were added to, without the joints that the body lacks."""
+    if len(pose) == len(body.pose):  # the usual case: it had all joints
+        return pose
+    return {joint: turn for joint, turn in pose.items() if joint in body.skeleton}
 
 
 def _sorted(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer], list[Layer]]:

@@ -322,11 +322,12 @@ class AnimationEngine(DefaultEngine):
 
     def _followed(self, now: GlobalTime, layers: Iterable[Layer], standing: float) -> tuple[Layer, ...]:
         """Return the layer in which trunk and pelvis follow gesturing and pointing arms."""
-        arms = [unit.shown for unit in self._playing() if isinstance(unit.behavior, Gesture | Pointing)]
+        playing = self._playing()
+        arms = [unit.shown for unit in playing if isinstance(unit.behavior, Gesture | Pointing)]
         if not arms and self._trunk_following.rests:
             return ()
         directed = any(layer.kind is LayerKind.GAZE and not _HEAD.isdisjoint(layer.rotations) for layer in layers)
-        steps = 0.0 if self._balances() else standing
+        steps = 0.0 if self._balances(playing) else standing
         return self._trunk_following.layers(now, arms, self._humanoid.body, directed=directed, standing=steps)
 
     def _breath(self, now: GlobalTime, standing: float) -> tuple[Layer, ...]:
@@ -361,7 +362,7 @@ class AnimationEngine(DefaultEngine):
         """Whether the figure is simulated, or walks: what happens then depends on what happened before."""
         steps = any(unit.motion.steps for unit in self._playing())
         walks = self._walk.active or steps or bool(self._walks())
-        return self._physical_figure.active or bool(self._controlling()) or walks
+        return self._physical_figure.active or bool(self._controlling(self._playing())) or walks
 
     def requests(self, tick: Tick) -> tuple[MovePoints, ...]:
         """Return the moves of the ends of locomotion: the figure arrives earlier or later than expected."""
@@ -369,16 +370,18 @@ class AnimationEngine(DefaultEngine):
 
     def _destination(self, now: GlobalTime) -> Goal | None:
         """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""
-        goals = [goal for unit in self._walks() if (goal := unit.goal()) is not None]
-        stands = self._rest.posture.stance is StanceType.STANDING and not self._balances()
-        if goals or not stands or any(Resource.STANCE in unit.resources for unit in self._playing()):
+        playing = self._playing()
+        walks = (unit for unit in playing if isinstance(unit, LocomotionUnit))
+        goals = [goal for unit in walks if (goal := unit.goal()) is not None]
+        stands = self._rest.posture.stance is StanceType.STANDING and not self._balances(playing)
+        if goals or not stands or any(Resource.STANCE in unit.resources for unit in playing):
             self._step_turns.forget()
             return goals[-1] if goals else None
         return self._step_turns.goal(now, self._humanoid.place, lambda: self.player.stacked(AnimationUnit))
 
-    def _balances(self) -> bool:
+    def _balances(self, playing: Sequence[AnimationUnit]) -> bool:
         """Return whether a controller moves the root."""
-        return any(ROOT in controller.joints for controller in self._controlling().values())
+        return any(ROOT in controller.joints for controller in self._controlling(playing).values())
 
     def _walks(self) -> list[LocomotionUnit]:
         """Return the locomotion that plays."""
@@ -387,16 +390,18 @@ class AnimationEngine(DefaultEngine):
     def dynamics(self, tick: Tick) -> Dynamics | None:
         """Return the movement of the joints that controllers move and no motion turns (thesis 8.7.5)."""
         claimed: frozenset[str] = frozenset()
-        controllers = list(self._controlling().values())
+        playing = self._playing()
+        controllers = list(self._controlling(playing).values())
         if controllers or self._physical_figure.active:
-            claimed = claimed.union(*(u.shown.rotations for u in self._playing() if u.motion.kind in _CLAIMING))
+            claimed = claimed.union(*(u.shown.rotations for u in playing if u.motion.kind in _CLAIMING))
         return self._physical_figure.dynamics(controllers, claimed)
 
-    def _controlling(self) -> dict[AnimationUnit, PhysicalController]:
+    @staticmethod
+    def _controlling(playing: Sequence[AnimationUnit]) -> dict[AnimationUnit, PhysicalController]:
         """Return the controllers that act, the latest last: in each replacement group, only the uppermost unit does."""
-        if not any(isinstance(unit.motion, ControllerMotionUnit) for unit in self._playing()):
+        if not any(isinstance(unit.motion, ControllerMotionUnit) for unit in playing):
             return {}
-        units = {unit.group or unit: unit for unit in self.player.stacked(AnimationUnit)}
+        units = {unit.group or unit: unit for unit in sorted(playing, key=height)}
         motions = ((unit, unit.motion) for unit in units.values())
         return {unit: motion.controller for unit, motion in motions if isinstance(motion, ControllerMotionUnit)}
 
@@ -423,7 +428,8 @@ class AnimationEngine(DefaultEngine):
         A figure that lies because its posture says so has not fallen.
         """
         if self._physical_figure.take_fall():
-            units = [unit for unit, controller in self._controlling().items() if ROOT in controller.joints]
+            controlling = self._controlling(self._playing())
+            units = [unit for unit, controller in controlling.items() if ROOT in controller.joints]
             yield from (ReportFall(unit, self._humanoid.time) for unit in units[-1:])
 
     def _gazes(self) -> Iterator[GazeGoal]:

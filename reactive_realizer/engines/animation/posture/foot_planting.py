@@ -81,7 +81,7 @@ class FootPlanting:
         # The pelvis usually rests; then the layers of the last frame are still valid.
         if walking:
             lower, added = _in_order(concerned)
-            body = reduce(_pushed, added, reduce(_over, lower, _stand(self._start)).body)
+            body = reduce(_pushed, added, reduce(over, map(_legs_of, lower), self._start))
             self._leg_parts, self._layers = None, (checked(Layer(LayerKind.END_EFFECTOR, legs(body, walking))),)
         elif self._legs and not (parts == self._leg_parts and self._alternation.settled):
             self._leg_parts, self._layers = parts, tuple(map(checked, self._planted(concerned, now)))
@@ -129,14 +129,14 @@ def _moving(layer: Layer) -> dict[str, Quat]:
 
 
 def _over(below: _LegState, layer: Layer) -> _LegState:
-    rotations = _moving(layer)
-    goal = below.body.posed(rotations, layer.root)
+    part = _legs_of(layer)
+    goal = below.body.posed(part.rotations, layer.root)
     weight = layer.weight_of(ROOT)
     if weight == 1.0:
         return _stand(goal)
     places = feet(goal)
     return below._replace(
-        body=over(below.body, replace(layer, rotations=rotations)),
+        body=over(below.body, part),
         feet=stepped(below.feet, places, weight, leading(below.ground, places)),
         softness=(1.0 - weight)
         * (below.softness + 4.0 * weight * _SOFTNESS * lift([foot.place for foot in below.feet], places)),
@@ -145,7 +145,12 @@ def _over(below: _LegState, layer: Layer) -> _LegState:
 
 def _pushed(body: Body, layer: Layer) -> Body:
     """Return a body with the part of an additive layer that affects pelvis and legs."""
-    return turned_further(body, replace(layer, rotations=_moving(layer)))
+    return turned_further(body, _legs_of(layer))
+
+
+def _legs_of(layer: Layer) -> Layer:
+    """Return the part of a layer for pelvis and legs."""
+    return replace(layer, rotations=_moving(layer))
 
 
 def _lacking(body: Body, side: str, foot: Transform) -> float:
