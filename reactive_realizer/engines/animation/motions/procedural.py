@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import lru_cache
+from random import Random
 
 from reactive_realizer.binding.spec_reader import finite_numbers
 from reactive_realizer.bml.behaviors import MOST_REPETITIONS
@@ -27,6 +28,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     resources_used,
     with_gesture_points,
 )
+from reactive_realizer.engines.animation.motions.variation import Variation
 from reactive_realizer.engines.animation.procedural.procedural_animation import AuthoredTiming, ProceduralAnimation
 from reactive_realizer.engines.animation.procedural.procedural_animation_reader import load_animation
 from reactive_realizer.engines.animation.shortest import shortest_parts
@@ -87,8 +89,14 @@ class ProceduralMotionUnit(MotionUnit):
     It starts from the current body (`InertializedStart`) and ends with the last pose of its file. Following motions
     continue from there; otherwise the engine fades it out.
 
-    With r repeats, the stroke comes r times, 1/r of the whole apart: stroke:1 to stroke:r.
+    With r repeats, the stroke comes r times, 1/r of the whole apart: stroke:1 to stroke:r. Added to other motion, these
+    strokes differ a little in size (`Variation`).
+
+    Attributes:
+        random: draws the variation at the start; None for none.
     """
+
+    random: Random | None = None
 
     fixed = FILE_PARAMETERS
     predictability = Predictability.ALWAYS
@@ -123,7 +131,10 @@ class ProceduralMotionUnit(MotionUnit):
         timing = animation.timing(self.parameters)
         self.preferred_duration, self.stretch = timing.duration, timing.stretch
         self.entrance = start_duration(timing.duration)
-        self.key_positions = _with_repeats(timing, round(self.parameters.get(REPEATS, 1.0)))
+        repeats = round(self.parameters.get(REPEATS, 1.0))
+        self.key_positions = _with_repeats(timing, repeats)
+        self._varies = repeats > 1 and kind is LayerKind.ADDITIVE
+        self._variation: Variation | None = None
         self._arrival: InertializedStart | None = None
         if rest is not None:
             self.shortest = self._shortest(rest)
@@ -140,6 +151,8 @@ class ProceduralMotionUnit(MotionUnit):
 
     def start(self, body: Body) -> None:
         """Start from the current body, unless the motion is additive."""
+        if self._varies and self.random is not None:
+            self._variation = Variation.drawn(self.random)
         if self.kind is not LayerKind.ADDITIVE:
             first = self._animation.sample(0.0, self.parameters, body)
             self._arrival = InertializedStart(body, first, self.preferred_duration)
@@ -149,6 +162,8 @@ class ProceduralMotionUnit(MotionUnit):
         posed = self._animation.sample(moment.phase, self.parameters, moment.body, moment.shown)
         if moment.shown is not None:
             self.fault = self.fault or posed.fault
+        if self._variation is not None:
+            return posed._replace(weight=self._variation.size(moment.phase))
         return posed if self._arrival is None else self._arrival(posed, moment.phase)
 
 
@@ -179,11 +194,14 @@ class ProceduralMotionMaker:
     def __init__(self, context: MakerContext) -> None:
         self._files = AnimationFinder(context)
         self._rest = context.rest
+        self._random = Random(context.seed)
 
     def __call__(self, request: MotionRequest) -> ProceduralMotionUnit:
         """Make a motion."""
         parameters = tuple(finite_numbers(request.parameters).items())
-        return _planned(self._files(request), parameters, request.added, self._rest.body).copy()
+        motion = _planned(self._files(request), parameters, request.added, self._rest.body).copy()
+        motion.random = self._random
+        return motion
 
     def refresh(self) -> None:
         """Look for files again."""

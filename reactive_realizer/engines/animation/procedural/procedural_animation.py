@@ -89,6 +89,11 @@ class ProceduralAnimation:
         return all(track.independent for track in self.tracks)
 
     @cached_property
+    def reaches(self) -> bool:
+        """Whether it brings hands to goals that do not move with the trunk."""
+        return any(isinstance(track, EffectorTrack) and track.reaches for track in self.tracks)
+
+    @cached_property
     def _times(self) -> Compiled:
         return compile_formulas([*self.durations, *self.key_times.values()], tuple(self.parameters))
 
