@@ -460,8 +460,10 @@ class PlanUnit:
         """Fire points that are due ``now``."""
         for point, time in due:
             self._fire(point, time)
+        if not due:
+            return
         self._progress = None
-        if due and any(self.shortest) and (ahead := self.ahead()):
+        if any(self.shortest) and (ahead := self.ahead()):
             late = now - due[-1].time > LATE
             since, need = now if late else due[-1].time, self._needs()[-len(ahead) - 1]
             self._progress = PhaseProgress(since, ahead[0].peg.value, need)
