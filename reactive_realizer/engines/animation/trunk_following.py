@@ -7,6 +7,7 @@ the hand goes far. All figures here are ours.
 
 import math
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime
@@ -78,7 +79,9 @@ def following(skeleton: Skeleton, rotations: Mapping[str, Quat], weight: float =
         rotations: of the arms' joints; without a shoulder, an arm does not count.
         weight: of these rotations, 0 to 1.
     """
-    arms = (_one_arm(skeleton, rotations, side) for side in SIDES if f"{side}_shoulder" in rotations)
+    arms = [_one_arm(skeleton, rotations, side) for side in SIDES if f"{side}_shoulder" in rotations]
+    if all(arm is _UPRIGHT for arm in arms):  # as in most gestures
+        return _UPRIGHT
     return Following(*(weight * sum(parts) for parts in zip(_UPRIGHT, *arms, strict=True)))
 
 
@@ -100,12 +103,34 @@ def _one_arm(skeleton: Skeleton, rotations: Mapping[str, Quat], side: str) -> Fo
 
 def _way(skeleton: Skeleton, rotations: Mapping[str, Quat], side: str) -> Vec3:
     """Return the way of a wrist from where it hangs, in the axes of the trunk and in lengths of its arm."""
+    arm = _hanging(skeleton, side)
+    elbow = rotations.get(f"{side}_elbow", IDENTITY)
+    hand = rotate(rotations[f"{side}_shoulder"], add(arm.upper, rotate(elbow, arm.lower)))
+    if (girdle := rotations.get(girdle_of(side))) is not None:
+        hand = rotate(girdle, hand)
+    return scale(subtract(hand, arm.wrist), 1.0 / arm.length)
+
+
+class _Hanging(NamedTuple):
+    """An arm that hangs.
+
+    Attributes:
+        upper: from shoulder to elbow, m.
+        lower: from elbow to wrist, m.
+        wrist: from the shoulder, m.
+        length: of both bones, m.
+    """
+
+    upper: Vec3
+    lower: Vec3
+    wrist: Vec3
+    length: float
+
+
+@lru_cache
+def _hanging(skeleton: Skeleton, side: str) -> _Hanging:
     arm = Arm.of(skeleton, side)
-    elbow, shoulder, girdle = (
-        rotations.get(joint, IDENTITY) for joint in (f"{side}_elbow", f"{side}_shoulder", girdle_of(side))
-    )
-    hand = rotate(girdle, rotate(shoulder, add(arm.upper, rotate(elbow, arm.lower))))
-    return scale(subtract(hand, add(arm.upper, arm.lower)), 1.0 / (length(arm.upper) + length(arm.lower)))
+    return _Hanging(arm.upper, arm.lower, add(arm.upper, arm.lower), length(arm.upper) + length(arm.lower))
 
 
 class TrunkFollowing:
@@ -138,8 +163,9 @@ class TrunkFollowing:
         self._follow(self._goal(arms), passed)
         if self.rests:
             return ()
-        turns, root = self._trunk(standing)
-        head = self._kept(turns, body) if directed else self._further(turns)
+        turn = from_euler(self._at.bow, self._at.turn, -self._at.bend)
+        turns, root = self._trunk(turn, standing)
+        head = self._kept(turns, body) if directed else self._further(turn, turns)
         return (Layer(LayerKind.ADDITIVE, {**turns, **head}, root=root),)
 
     @property
@@ -153,6 +179,8 @@ class TrunkFollowing:
 
     def _follow(self, goal: Following, passed: float) -> None:
         """Move on toward a goal for some time, s."""
+        if goal == self._at and self._speed == _UPRIGHT:
+            return
         left = math.exp(-_QUICKNESS * passed)
         at, speeds = [], []
         for wanted, value, speed in zip(goal, self._at, self._speed, strict=True):
@@ -164,21 +192,18 @@ class TrunkFollowing:
         if goal == _UPRIGHT and max(map(abs, (*at, *speeds))) < _AT_REST:
             self._at = self._speed = _UPRIGHT
 
-    @property
-    def _turn(self) -> Quat:
-        return from_euler(self._at.bow, self._at.turn, -self._at.bend)
-
-    def _trunk(self, standing: float) -> tuple[dict[str, Quat], Vec3 | None]:
+    def _trunk(self, turn: Quat, standing: float) -> tuple[dict[str, Quat], Vec3 | None]:
         """Return the turns of trunk and pelvis, and the displacement of the pelvis, m."""
         side = standing * self._at.lean
         leant, root = leaning(side) if abs(side) > _AT_REST else ({}, None)
-        turns = {joint: multiply(leant.get(joint, IDENTITY), power(self._turn, part)) for joint, part in self._parts}
+        turns = {joint: multiply(leant.get(joint, IDENTITY), power(turn, part)) for joint, part in self._parts}
         return {**leant, **turns}, root
 
-    def _further(self, turns: Mapping[str, Quat]) -> dict[str, Quat]:
+    @staticmethod
+    def _further(turn: Quat, turns: Mapping[str, Quat]) -> dict[str, Quat]:
         """Return the turns of neck and head that go further than the trunk."""
-        turn = power(self._turn, _HEAD_PART)
-        return {joint: multiply(turns.get(joint, IDENTITY), turn) for joint in HEAD}
+        further = power(turn, _HEAD_PART)
+        return {joint: multiply(turns.get(joint, IDENTITY), further) for joint in HEAD}
 
     def _kept(self, turns: Mapping[str, Quat], body: Body) -> dict[str, Quat]:
         """Return the turn of the neck with which the head keeps its direction while the trunk turns."""
