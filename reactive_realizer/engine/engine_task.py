@@ -45,6 +45,8 @@ class EngineTasks:
         self._ranks = {task: rank for rank, task in enumerate(self.tasks)}
         self._agenda: Agenda[EngineTask] = Agenda(lambda task: task.engine.next_due, lambda task: ())
         self._woken: set[EngineTask] = set()
+        self._played: set[EngineTask] = set()
+        """Those that have played since it was read when they are due."""
         self._needing: set[EngineTask] = set()
         """The engines that need frames, as they said when they last played or showed one."""
         for task in self.tasks:
@@ -54,8 +56,9 @@ class EngineTasks:
     @property
     def next_due(self) -> Time:
         """A time before which no engine has something to play, as far as it is known; None if there is none."""
-        for task in self._woken:
+        for task in (*self._woken, *self._played):
             self._agenda.note(task)
+        self._played.clear()
         return self._agenda.next_due
 
     async def play(self, tick: Tick) -> list[Play]:
@@ -85,8 +88,8 @@ class EngineTasks:
                 self._needing.discard(task)
 
     def _take_due(self, now: GlobalTime) -> list[EngineTask]:
-        due = {*self._agenda.take_due(now), *self._woken}
+        for task in self._played - self._woken:  # those that have woken play whenever they are due
+            self._agenda.note(task)
+        self._played = {*self._agenda.take_due(now), *self._woken}
         self._woken.clear()
-        for task in due:
-            self._agenda.note(task)  # to be read when it has played
-        return sorted(due, key=self._ranks.__getitem__)
+        return sorted(self._played, key=self._ranks.__getitem__)

@@ -77,6 +77,8 @@ class Owners:
 
     def kept_from(self, unit: PlanUnit, time: GlobalTime) -> frozenset[str]:
         """The resources that others keep from a unit at a time; what accompanies keeps none from what was asked for."""
+        if not self._order:
+            return frozenset()
         owned = self._by_resource.items()
         return frozenset([resource for resource, units in owned if any(_keeps(other, unit, time) for other in units)])
 
@@ -86,6 +88,8 @@ class Owners:
         Both are in the order in which they were added. A unit leaves if it only returns to rest, or accompanies others
         while the one that begins does not.
         """
+        if not self._order:
+            return [], []
         rivals = {*self._by_resource.of(unit.resources), *self._by_part[not unit.accompanies].of(unit.parts)}
         if unit.group is not None:
             rivals.update(self._by_group.of((unit.group,)))

@@ -179,7 +179,9 @@ class Player:
         except Exception as failure:
             self._fail(unit, failure, now)
         self._touched.append(unit)
-        reached.extend(Reached(unit, point, time) for point, time in due if point.fired)
+        for point, time in due:
+            if point.fired:
+                reached.append(Reached(unit, point, time))
         self._note_end(unit)
 
     def _forget_ended(self) -> None:

@@ -327,14 +327,16 @@ class PlanUnit:
 
     def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
         """Two points, with their times, that are out of order (thesis 7.15), if there are any; tied ones first."""
-        known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
         latest = -inf
-        for _, time in known:
-            if time < latest:
-                break
-            latest = time
+        for point in self.points:
+            time = point.peg.value
+            if time is not None:
+                if time < latest:
+                    break
+                latest = time
         else:
             return None
+        known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
         for points in ([each for each in known if each[0].tied], known):
             for (earlier, time), (later, late) in itertools.pairwise(points):
                 if time > late + RESOLUTION:
@@ -447,14 +449,17 @@ class PlanUnit:
         """The points that are due, and unknown points before them, which have the time of the next known point."""
         due: list[DuePoint] = []
         successor: Time = None
-        for point in reversed(self.ahead() if end else self.ahead()[:-1]):
+        for point in reversed(self.points if end else self.points[:-1]):
+            if point.fired:
+                continue
             time = point.peg.value
             if time is None:
                 time = successor
             if time is not None and (successor is not None or is_due(time, now)):
                 due.append(DuePoint(point, time))
                 successor = time
-        return due[::-1]
+        due.reverse()
+        return due
 
     def fire(self, due: Sequence[DuePoint], now: GlobalTime) -> None:
         """Fire points that are due ``now``."""

@@ -2,7 +2,7 @@
 
 import logging
 from abc import abstractmethod
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -298,13 +298,13 @@ class Graph:
         """
         self._check_writable(cell)
         if not cell.stale:
-            self._mark_stale((cell,))
+            self._mark_stale(cell)
 
     def rerank(self, cell: Cell[Any], rank: int) -> None:
         """Move a cell to a higher rank, also while it waits to be recomputed."""
         cell.rank = rank
         if cell.stale:
-            self._mark_stale((cell,))
+            self._mark_stale(cell)
 
     def settle(self) -> None:
         """Recompute the stale cells, lowest rank first."""
@@ -322,8 +322,9 @@ class Graph:
         if value != old:
             self._before.setdefault(cell, old)
             cell._value = value
-            if cell.dependents:
-                self._mark_stale([dependent for dependent in cell.dependents if not dependent.stale])
+            for dependent in cell.dependents:
+                if not dependent.stale:
+                    self._mark_stale(dependent)
 
     def _check_writable(self, cell: Cell[Any]) -> None:
         if self._depth == 0:
@@ -331,16 +332,14 @@ class Graph:
         if cell.disposed:
             raise DisposedCellError(f"'{cell.name}' is written after it was disposed of")
 
-    def _mark_stale(self, cells: Iterable[Cell[Any]]) -> None:
-        buckets = self._buckets
-        for cell in cells:
-            cell.stale = True
-            bucket = buckets.get(cell.rank)
-            if bucket is None:
-                buckets[cell.rank] = [cell]
-                heappush(self.stale_ranks, cell.rank)
-            else:
-                bucket.append(cell)
+    def _mark_stale(self, cell: Cell[Any]) -> None:
+        cell.stale = True
+        bucket = self._buckets.get(cell.rank)
+        if bucket is None:
+            self._buckets[cell.rank] = [cell]
+            heappush(self.stale_ranks, cell.rank)
+        else:
+            bucket.append(cell)
 
     def _apply_rules(self) -> None:
         if not self._before:

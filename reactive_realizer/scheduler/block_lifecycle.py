@@ -126,8 +126,9 @@ class BlockLifecycle:
             holds = self._planning.lay_out(block, plan)
             block.set_plan(floor, plan.units, plan.times, plan.kept, plan.bounds, holds)
         self._blocks.watch.follow(block)
+        preparation = self._planner.preparation(block)
         for unit in plan.units:
-            self._routing.assign(unit, self._planner.preparation(block).engine_of(unit))
+            self._routing.assign(unit, preparation.engine_of(unit))
         self._transitions.take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
 
     # --- start

@@ -92,15 +92,17 @@ class Preparation:
         """The engine that has made a unit."""
         return self._routed[unit.behavior.id].engine
 
+    def has_parts(self, unit: PlanUnit) -> bool:
+        """Whether the work of a unit is done in parts."""
+        return unit.behavior.id in self._parted
+
     def follow(self, unit: PlanUnit, follower: Follower, now: GlobalTime) -> Callable[[], None] | None:
-        """Call ``follower`` with the present result of a unit's work in parts, and with all later ones.
+        """Call ``follower`` with the present result of a unit's work, which has parts, and with all later ones.
 
         Returns:
             A call that ends this, and cancels the work; None if no other result follows.
         """
         id_ = unit.behavior.id
-        if id_ not in self._parted:
-            return None
         follower(_result_of(self._results[id_]), now)
         if id_ not in self._cancels:
             return None

@@ -43,7 +43,7 @@ class UnfinishedUnits:
 
     def add(self, block: BMLBlock, preparation: Preparation, now: GlobalTime) -> None:
         """Give the behaviors of a block that was planned what has been prepared since, and what will be."""
-        for unit in tuple(block.units):
+        for unit in [unit for unit in block.units if preparation.has_parts(unit)]:
             self._units[unit] = unfinished = _Unfinished()
             take = partial(self._take, unit, preparation.engine_of(unit))
             unfinished.leave = preparation.follow(unit, take, now)
