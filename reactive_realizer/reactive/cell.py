@@ -79,20 +79,19 @@ class Derived(Cell[T]):
 
     def compute(self) -> T | Failure:
         """The formula applied to the current values, or the failure of doing so."""
-        if len(self.dependencies) == 1:  # most cells have one
-            value = self.dependencies[0]._value
+        dependencies = self.dependencies
+        if len(dependencies) == 1:  # most cells have one
+            value = dependencies[0]._value
             if type(value) is Failure:
                 return value
             try:
                 return self.formula(value)
             except Exception as error:
                 return self._failure(error)
-        values = []
-        for cell in self.dependencies:
-            value = cell._value
+        values = [cell._value for cell in dependencies]
+        for value in values:
             if type(value) is Failure:
                 return value
-            values.append(value)
         try:
             return self.formula(*values)
         except Exception as error:
