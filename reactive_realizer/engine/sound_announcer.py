@@ -69,9 +69,8 @@ class SoundAnnouncer:
                 del self._announced[unit]
                 out += _silences(unit, announced, now)
             elif unit.live:
-                for each, part in zip(announced, unit.sounds, strict=False):
-                    out += [*_differences(unit, each, now), *_cut_off(each, part)]
-                out += [change for each in announced for change in self._restated(unit, each)]
+                out += _differences(unit, announced, now)
+                out += self._restated(unit, announced) if unit.elastic else ()
             else:
                 del self._announced[unit], self._sources[unit]
                 out += _silences(unit, announced, now)
@@ -83,44 +82,43 @@ class SoundAnnouncer:
 
     def _announce(self, unit: SoundUnit, part: SoundPart, announced: list[_Announced]) -> AudioStart:
         self._count += 1
-        start = _start(unit, part)
+        start = _start(unit.origin, part)
         caption = None if unit.caption is None else unit.caption.later(-part.begin)
         clip = AudioClip(f"{self._prefix}-{self._count}", part.sound, caption)
         announced.append(_Announced(clip.id, part, start, unit.gain, caption))
         return AudioStart(self._character, clip, start, unit.gain)
 
-    def _restated(self, unit: SoundUnit, announced: _Announced) -> Iterator[AudioStart]:
+    def _restated(self, unit: SoundUnit, announced: Iterable[_Announced]) -> Iterator[AudioStart]:
         """The caption of a speech without sound again, if its words have moved."""
-        if unit.elastic and (caption := unit.caption) != announced.caption:
-            announced.caption = caption
-            announced.part = SoundPart(0.0, Sound(b"", unit.length))
-            clip = AudioClip(announced.clip, announced.part.sound, caption)
-            yield AudioStart(self._character, clip, announced.start, unit.gain)
+        caption = unit.caption
+        for each in announced:
+            if caption != each.caption:
+                each.caption = caption
+                each.part = SoundPart(0.0, Sound(b"", unit.length))
+                clip = AudioClip(each.clip, each.part.sound, caption)
+                yield AudioStart(self._character, clip, each.start, unit.gain)
 
 
-def _start(unit: SoundUnit, part: SoundPart) -> Time:
-    """When the first sample of a part is heard."""
-    return None if unit.origin is None else GlobalTime(unit.origin + part.begin)
+def _start(origin: Time, part: SoundPart) -> Time:
+    """When the first sample of a part is heard, whose unit begins to be heard at a time."""
+    return None if origin is None else GlobalTime(origin + part.begin)
 
 
-def _differences(unit: SoundUnit, announced: _Announced, now: GlobalTime) -> Iterator[AudioChange]:
-    """The changes of a sound of a live unit since its last announcement, which they update."""
-    if announced.ended(now):
-        return
-    time = _start(unit, announced.part)
-    if time is not None and (announced.start is None or abs(time - announced.start) > _WORTH_MOVING):
-        announced.start = time
-        yield AudioMove(announced.clip, time, now)
-    if unit.gain != announced.gain and announced.gain_tick != now:
-        announced.gain, announced.gain_tick = unit.gain, now
-        yield AudioGain(announced.clip, unit.gain, now)
-
-
-def _cut_off(announced: _Announced, part: SoundPart) -> Iterator[AudioStop]:
-    """The stop of a sound of which another one takes the place, when it does."""
-    if part.until != announced.part.until and announced.start is not None:
-        announced.part = part
-        yield AudioStop(announced.clip, GlobalTime(announced.start + part.until - part.begin), _FADE)
+def _differences(unit: SoundUnit, announced: Iterable[_Announced], now: GlobalTime) -> Iterator[AudioChange]:
+    """The changes of the sounds of a live unit since their last announcement, which they update."""
+    origin, gain = unit.origin, unit.gain
+    for each, part in zip(announced, unit.sounds, strict=False):
+        if not each.ended(now):
+            time = _start(origin, each.part)
+            if time is not None and (each.start is None or abs(time - each.start) > _WORTH_MOVING):
+                each.start = time
+                yield AudioMove(each.clip, time, now)
+            if gain != each.gain and each.gain_tick != now:
+                each.gain, each.gain_tick = gain, now
+                yield AudioGain(each.clip, gain, now)
+        if part.until != each.part.until and each.start is not None:  # another sound takes its place
+            each.part = part
+            yield AudioStop(each.clip, GlobalTime(each.start + part.until - part.begin), _FADE)
 
 
 def _silences(unit: SoundUnit, announced: Sequence[_Announced], now: GlobalTime) -> Iterator[AudioChange]:

@@ -173,7 +173,7 @@ class PostureMaker:
 def posture_after(posture: BodyPosture, motions: Iterable[MotionUnit]) -> BodyPosture:
     """Return the posture after motions, of which shifts change it."""
     for motion in motions:
-        if isinstance(motion, PostureMotionUnit) and motion.persists_as is not None:
+        if motion.persists_as is not None and isinstance(motion, PostureMotionUnit):
             posture = posture.changed(*motion.change)
     return posture
 
