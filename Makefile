@@ -98,7 +98,7 @@ clean: ## Remove everything that make has created
 $(INSTALLED): pyproject.toml constraints.txt
 	test -x $(BIN)/pip || $(PYTHON) -m venv $(VENV)
 	$(PIP) install --quiet --constraint constraints.txt --upgrade pip
-	$(PIP) install --quiet --constraint constraints.txt --build-constraint constraints.txt --editable '.[align,espeak,kokoro,piper,video]' --group dev
+	$(PIP) install --quiet --constraint constraints.txt --build-constraint constraints.txt --editable '.[align,espeak,kokoro,piper,vhmsg,video]' --group dev
 	touch $@
 
 # The wheel's own bin/npm is a copy that does not find its library, so link to the original.

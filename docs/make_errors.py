@@ -49,6 +49,8 @@ _TITLES = {
     "assembly": "Assembling a scene",
     "server": "The server",
     "export": "Using a performance elsewhere",
+    "client": "Clients",
+    "bridges": "Bridges",
     "conformance": "Conformance",
     "cli": "The command line",
     "anticipators": "Anticipators",

@@ -23,6 +23,7 @@ _COMMANDS = MappingProxyType(
         "avatar": "say what an avatar file contains",
         "physics": "write the physical model of a character",
         "conformance": "test a realizer over the protocol",
+        "bridge": "connect a realizer with the message bus of another system",
     }
 )
 """The commands, each a module of `reactive_realizer.cli`, with a line of help."""

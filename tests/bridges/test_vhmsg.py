@@ -1,0 +1,129 @@
+"""The bridge to the Virtual Human Toolkit with a real broker and a real server."""
+
+import asyncio
+import threading
+from collections.abc import AsyncIterator, Iterator
+
+import pytest
+from aiohttp import web
+from coilmq.queue import QueueManager
+from coilmq.server.socket_server import ThreadedStompServer
+from coilmq.store.memory import MemoryQueue
+from coilmq.topic import TopicManager
+
+from reactive_realizer.__main__ import main
+from reactive_realizer.assembly.scene import SceneOptions, open_scene
+from reactive_realizer.bridges.stomp_bus import Broker, StompBus, connected
+from reactive_realizer.bridges.vhmsg import SCOPE, run_bridge
+from reactive_realizer.bridges.vhmsg_messages import VhMessage
+from reactive_realizer.clock.clock import ManualClock
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.server.app import create_app
+from reactive_realizer.server.live_scene import LiveScene
+from reactive_realizer.server.security import Security
+
+LIMIT = 30.0
+"""The longest wait for a message, s."""
+LONG = '<act><bml><wait id="w" start="0" end="80000"/></bml></act>'
+SHORT = """<act><participant id="brad" role="actor"/><bml composition="REPLACE">
+  <speech id="s"><text>Hello <sync id="T1"/>there.</text></speech>
+  <event message="vrSpoke brad user m2 Hello" start="s:T1"/>
+</bml></act>"""
+
+
+@pytest.fixture
+def broker() -> Iterator[Broker]:
+    queues = QueueManager(store=MemoryQueue())
+    with ThreadedStompServer(("127.0.0.1", 0), queue_manager=queues, topic_manager=TopicManager()) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield Broker("127.0.0.1", server.server_address[1])
+        server.shutdown()
+        thread.join()
+
+
+class Toolkit:
+    """Another component on the bus, and the clock of the realizer, which moves while a message is awaited."""
+
+    def __init__(self, bus: StompBus, live: LiveScene) -> None:
+        self._bus, self._live = bus, live
+        self._ticks = live.ticker.ticks()
+
+    def say(self, word: str, argument: str = "") -> None:
+        self._bus.send(VhMessage(word, argument).text, ELVISH_SCOPE=SCOPE, MESSAGE_PREFIX=word)
+
+    async def hear(self, *words: str) -> str:
+        """The next message with one of these first words."""
+        async with asyncio.timeout(LIMIT), asyncio.TaskGroup() as group:
+            ticking = group.create_task(self._tick())
+            while (message := VhMessage.read(await self._bus.receive())).word not in words:
+                pass
+            ticking.cancel()
+        return " ".join(message)
+
+    async def _tick(self) -> None:
+        while True:
+            await self._live.step(await anext(self._ticks))
+            await asyncio.sleep(0)
+
+
+@pytest.fixture
+async def live() -> AsyncIterator[tuple[LiveScene, str]]:
+    async with open_scene(SceneOptions(voice="text")) as scene:
+        live = LiveScene(scene, ManualClock())
+        runner = web.AppRunner(create_app(live, Security()), shutdown_timeout=1)
+        await runner.setup()
+        await web.TCPSite(runner, "127.0.0.1", 0).start()
+        host, port = runner.addresses[0]
+        yield live, f"http://{host}:{port}"
+        await runner.cleanup()
+
+
+async def test_requests_on_the_bus_are_played_and_reported_there(broker: Broker, live: tuple[LiveScene, str]) -> None:
+    scene, url = live
+    async with connected(broker, f"/topic/{SCOPE}") as bus, asyncio.TaskGroup() as group:
+        bridge = group.create_task(run_bridge(url, broker, SCOPE, {"brad": "alice"}))
+        toolkit = Toolkit(bus, scene)
+        assert await toolkit.hear("vrComponent") == "vrComponent reactive-realizer all"
+        toolkit.say("vrSpeak", f"brad user m1 {LONG}")
+        assert await toolkit.hear("vrAgentBML") == "vrAgentBML brad m1 start"
+        toolkit.say("vrSpeak", f"brad user m2 {SHORT}")
+        reports = [await toolkit.hear("vrAgentBML", "vrSpoke") for _ in range(4)]
+        assert reports == [
+            "vrAgentBML brad m1 end interrupted",
+            "vrAgentBML brad m2 start",
+            "vrSpoke brad user m2 Hello",
+            "vrAgentBML brad m2 end complete",
+        ]
+        toolkit.say("vrSpeak", "brad user m3 <act><bml><speech></bml></act>")
+        assert (await toolkit.hear("vrSpeakFailed")).startswith("vrSpeakFailed brad user m3 ")
+        toolkit.say("vrKillComponent", "all")
+        await bridge
+
+
+async def test_a_bridge_without_a_realizer_or_a_broker_says_so(
+    broker: Broker, live: tuple[LiveScene, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(RealizerError, match="no realizer can be reached"):
+        await run_bridge("http://127.0.0.1:9", broker, SCOPE, {})
+    _, url = live
+    with pytest.raises(RealizerError, match=r"no message broker can be reached at 127\.0\.0\.1:9"):
+        await run_bridge(url, Broker("127.0.0.1", 9), SCOPE, {})
+    assert await asyncio.to_thread(main, ["bridge", "vhmsg", "http://127.0.0.1:9"]) == 2
+    assert "no realizer can be reached at http://127.0.0.1:9" in capsys.readouterr().err
+
+
+async def test_a_lost_broker_ends_the_bridge_with_an_error(live: tuple[LiveScene, str]) -> None:
+    _, url = live
+    server = await asyncio.start_server(_accept_and_vanish, "127.0.0.1", 0)
+    async with server:
+        host, port = server.sockets[0].getsockname()
+        with pytest.raises(RealizerError, match="no message broker"):
+            await run_bridge(url, Broker(host, port), SCOPE, {})
+
+
+async def _accept_and_vanish(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    await reader.readuntil(b"\0")
+    writer.write(b"CONNECTED\nversion:1.1\n\n\0")
+    await reader.readuntil(b"\0")
+    writer.close()

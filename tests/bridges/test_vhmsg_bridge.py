@@ -1,0 +1,122 @@
+"""The bridge to the Virtual Human Toolkit: which reports follow from what the realizer says."""
+
+import logging
+
+import pytest
+
+from reactive_realizer.bridges.vhmsg_bridge import VhmsgBridge, ends
+from reactive_realizer.bridges.vhmsg_messages import VhMessage
+
+FEEDBACK = (
+    '<{} xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla" '
+    'xmlns:rr="urn:reactive-realizer:1" characterId="alice" id="{}" {}>{}</{}>'
+)
+
+
+class Toolkit:
+    """A bridge, and what it has sent to the toolkit."""
+
+    def __init__(self) -> None:
+        self.sent: list[str] = []
+        self.bridge = VhmsgBridge({"alice": "alice", "brad": "alice"}, self._send)
+
+    def request(self, name: str, xml: str = "<bml/>", agent: str = "brad") -> dict[str, object] | None:
+        return self.bridge.take(VhMessage("vrSpeak", f"{agent} user {name} {xml}"))
+
+    def progress(self, point: str, status: str) -> None:
+        self._feedback("blockProgress", point, f'bmla:status="{status}"')
+
+    def reach(self, point: str, event: str = "") -> None:
+        self._feedback("syncPointProgress", point, "", event)
+
+    def fail(self, block: str, reason: str, *accepted: str) -> None:
+        self.bridge.report({"type": "error", "ref": block, "message": reason, "blocks": list(accepted)})
+
+    def _send(self, message: VhMessage) -> None:
+        self.sent.append(" ".join(message))
+
+    def _feedback(self, kind: str, id_: str, attributes: str, inside: str = "") -> None:
+        self.bridge.report(
+            {"type": "feedback", "time": 0.0, "xml": FEEDBACK.format(kind, id_, attributes, inside, kind)}
+        )
+
+
+@pytest.fixture
+def toolkit() -> Toolkit:
+    return Toolkit()
+
+
+def test_the_realizer_gets_a_document_with_the_character_and_the_name_of_the_request(toolkit: Toolkit) -> None:
+    sent = toolkit.request("m1")
+    assert sent is not None
+    assert (sent["type"], sent["ref"]) == ("bml", "m1")
+    assert 'characterId="alice"' in str(sent["xml"])
+
+
+@pytest.mark.parametrize(
+    ("status", "outcome"),
+    [("DONE", "complete"), ("INTERRUPTED", "interrupted"), ("REVOKED", "interrupted"), ("FAILED", "error")],
+)
+def test_a_request_is_reported_when_it_starts_and_ends(toolkit: Toolkit, status: str, outcome: str) -> None:
+    toolkit.request("m1")
+    toolkit.progress("m1:start", "IN_EXEC")
+    toolkit.progress("m1:end", status)
+    assert toolkit.sent == ["vrAgentBML brad m1 start", f"vrAgentBML brad m1 end {outcome}"]
+
+
+def test_a_request_of_two_blocks_starts_with_the_first_and_ends_with_the_last(toolkit: Toolkit) -> None:
+    toolkit.request("m1", "<act><bml/><bml/></act>")
+    for point, status in (("m1:start", "IN_EXEC"), ("m1_2:start", "IN_EXEC"), ("m1_2:end", "REVOKED")):
+        toolkit.progress(point, status)
+    assert toolkit.sent == ["vrAgentBML brad m1 start"]
+    toolkit.progress("m1:end", "DONE")
+    assert toolkit.sent[1:] == ["vrAgentBML brad m1 end interrupted"]
+
+
+def test_a_refused_request_is_reported_with_the_reason(toolkit: Toolkit) -> None:
+    toolkit.request("m1")
+    toolkit.fail("m1", "line 1: no entry")
+    assert toolkit.sent == ["vrSpeakFailed brad user m1 line 1: no entry"]
+    assert toolkit.request("m1") is not None
+
+
+def test_the_accepted_blocks_of_a_refused_request_still_play(toolkit: Toolkit) -> None:
+    toolkit.request("m1", "<act><bml/><bml/></act>")
+    toolkit.fail("m1", "why", "m1")
+    toolkit.progress("m1:start", "IN_EXEC")
+    toolkit.progress("m1:end", "DONE")
+    assert toolkit.sent[1:] == ["vrAgentBML brad m1 start", "vrAgentBML brad m1 end complete"]
+
+
+def test_a_request_that_is_not_xml_fails_at_once(toolkit: Toolkit) -> None:
+    assert toolkit.request("m1", "<bml><head></bml>") is None
+    assert [each.rpartition(":")[0].startswith("vrSpeakFailed brad user m1 ") or each for each in toolkit.sent] == [
+        True
+    ]
+
+
+def test_events_of_requests_are_messages(toolkit: Toolkit) -> None:
+    toolkit.request("m1")
+    toolkit.reach("m1:e:start", '<rr:event name="vrSpoke">brad user m1 Hello</rr:event>')
+    toolkit.reach("other:e:start", '<rr:event name="vrSpoke">not ours</rr:event>')
+    assert toolkit.sent == ["vrSpoke brad user m1 Hello"]
+
+
+def test_requests_to_agents_of_other_components_are_left_to_them(
+    toolkit: Toolkit, caplog: pytest.LogCaptureFixture
+) -> None:
+    with caplog.at_level(logging.WARNING):
+        assert [toolkit.request(name, agent="rachel") for name in ("m1", "m2")] == [None, None]
+    assert toolkit.sent == []
+    assert len(caplog.records) == 1
+    assert "rachel" in caplog.text
+
+
+def test_it_answers_a_call_of_all_components(toolkit: Toolkit) -> None:
+    toolkit.bridge.take(VhMessage("vrAllCall", ""))
+    assert toolkit.sent == ["vrComponent reactive-realizer all"]
+
+
+def test_it_ends_when_it_or_every_component_is_asked_to() -> None:
+    asked = [VhMessage("vrKillComponent", name) for name in ("all", "reactive-realizer", "nvb", "")]
+    assert [ends(each) for each in asked] == [True, True, False, False]
