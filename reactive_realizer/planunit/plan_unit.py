@@ -283,6 +283,10 @@ class PlanUnit:
         relaxed = any(point.id == "relax" and point.fired and is_due(point.peg.value, time) for point in self.points)
         return relaxed and not self.points[-1].tied
 
+    def spares(self, resources: frozenset[str]) -> bool:
+        """Whether it can do without some resources, though it is planned with them."""
+        return resources.isdisjoint(self.resources)
+
     def excludes(self, other: "PlanUnit") -> bool:
         """Whether this unit and another one cannot play at the same time."""
         if self.accompanies is not other.accompanies:

@@ -261,7 +261,7 @@ class Planning:
         """A plan in which gestures take over the arms of others, where nothing is lost for that."""
         refused: set[Precedence] = set()
         while True:
-            found = takeovers(plan.posed.problem, plan.posed.units, plan.solution.times)
+            found = takeovers(plan.posed.problem, plan.posed.units, plan.solution.times, refused)
             tried = refused.union(plan.posed.problem.orders)
             wanted = {order: each for order, each in found.items() if order not in tried}
             if not wanted:

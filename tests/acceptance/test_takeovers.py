@@ -60,3 +60,72 @@ async def test_an_arm_whose_end_is_tied_is_not_taken_over(pilot: RealizerPilot) 
     await pilot.advance(4)
     assert pilot.feedback.warnings == [("b:g1", "IMPOSSIBLE_TO_SCHEDULE")]
     assert pilot.feedback.time("b:g0:end") == pytest.approx(pilot.feedback.time("b:start") + 2.2)
+
+
+@pytest.mark.parametrize("period", [0.3, 0.4])
+async def test_strokes_too_close_for_one_hand_are_played_by_both_in_turn(still: RealizerPilot, period: float) -> None:
+    any_hand = BEAT.replace(' mode="RIGHT_HAND"', "")
+    still.block("b", "".join(any_hand.format(number, 1 + number * period) for number in range(4)))
+    await still.advance(4)
+    told = still.feedback
+    assert told.warnings == []
+    strokes = [told.time(f"b:g{number}:stroke") - told.time("b:start") for number in range(4)]
+    assert strokes == pytest.approx([1 + number * period for number in range(4)])
+    for hand in ("l_wrist", "r_wrist"):
+        assert accelerations(still.bodies(), hand).max() < 60.0
+
+
+async def test_a_lexeme_whose_hand_is_named_does_not_change_hands(still: RealizerPilot) -> None:
+    still.block("b", beats(0.3))
+    await still.advance(4)
+    assert still.feedback.reached("b:g0:stroke")
+    assert ("b:g1", "IMPOSSIBLE_TO_SCHEDULE") in still.feedback.warnings
+    heights = [body.transform("l_wrist").position[1] for body in still.bodies()]
+    assert max(heights) - min(heights) < 0.005
+
+
+# --- partial retraction
+
+
+def lowest_between(pilot: RealizerPilot, hand: str) -> float:
+    """How low a hand gets between the strokes of two gestures: 0 as at rest, 1 as at the relax of the first one."""
+    told, heights = pilot.feedback, pilot.path(hand)[:, 1]
+    first, last = (round(50 * told.time(point)) for point in ("b:g0:relax", "b:g1:start"))
+    return float((heights[first : last + 1].min() - heights[0]) / (heights[first] - heights[0]))
+
+
+@pytest.mark.parametrize(("stroke", "waits"), [(2.8, True), (3.2, True), (3.6, False)])
+async def test_an_arm_whose_next_stroke_comes_within_two_seconds_waits_halfway(
+    still: RealizerPilot, stroke: float, waits: bool
+) -> None:
+    still.block("b", BEAT.format(0, 1) + BEAT.format(1, stroke))
+    await still.advance(6)
+    assert still.feedback.warnings == []
+    assert 0.3 < lowest_between(still, "r_wrist") < 0.6 if waits else lowest_between(still, "r_wrist") < 0.02
+    assert accelerations(still.bodies(), "r_wrist").max() < 30.0
+    assert still.path("r_wrist")[-1] == pytest.approx(still.path("r_wrist")[0], abs=1e-3)
+
+
+async def test_only_the_arm_that_the_next_gesture_needs_waits(still: RealizerPilot) -> None:
+    still.block("b", BEAT.format(0, 1).replace("RIGHT_HAND", "BOTH_HANDS") + BEAT.format(1, 3.2))
+    await still.advance(2.5)
+    assert lowest_between(still, "r_wrist") > 0.3
+    assert lowest_between(still, "l_wrist") < 0.02
+
+
+@pytest.mark.parametrize("gives_up", ["", '<bmla:interrupt id="i" target="b" include="g1"/>'])
+async def test_an_arm_rests_if_the_stroke_that_it_waits_for_is_dropped_or_comes_later(
+    still: RealizerPilot, gives_up: str
+) -> None:
+    still.predict("t", "hit", 3.0)
+    still.block("b", BEAT.format(0, 1) + BEAT.format(1, "anticipators:t:hit"))
+    await still.advance(2.0)
+    waiting = still.path("r_wrist")[-1]
+    if gives_up:
+        still.block("i", gives_up)
+    else:
+        still.predict("t", "hit", 8.0)
+    await still.advance(3.0)
+    assert waiting[1] > still.path("r_wrist")[0][1] + 0.05
+    assert still.path("r_wrist")[-1] == pytest.approx(still.path("r_wrist")[0], abs=1e-3)
+    assert accelerations(still.bodies(), "r_wrist").max() < 30.0

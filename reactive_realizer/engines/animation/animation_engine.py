@@ -75,6 +75,7 @@ from reactive_realizer.engines.animation.posture.foot_planting import FootPlanti
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.trunk_following import TrunkFollowing
+from reactive_realizer.engines.animation.waiting_arms import WaitingArms
 from reactive_realizer.engines.animation.walk import Walk
 from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.engines.animation.walking.step_turn import StepTurns
@@ -147,6 +148,7 @@ class AnimationEngine(DefaultEngine):
         self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
         self._walk = Walk(context.humanoid)
+        self._waiting_arms = WaitingArms(self._release)
         self._trunk_following = TrunkFollowing(context.humanoid.avatar.skeleton)
         self._step_turns = StepTurns()
         self._persistent = PersistentPoses()
@@ -302,6 +304,7 @@ class AnimationEngine(DefaultEngine):
             *walking,
             *self._breath(tick.time, standing),
             *self._persisting(tick.time),
+            *self._waiting_arms.layers(tick.time),
             *self._stacked(tick.time),
         )
         follow: tuple[Layer, ...] = self._isolated(
@@ -442,6 +445,9 @@ class AnimationEngine(DefaultEngine):
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
         self._note_gaze_change(unit, time)
         self._late_hands.note(unit, sync, time)
+        if sync == "relax" and unit.motion.kind is LayerKind.GESTURE:
+            others = (other for other in self.player.units if isinstance(other, AnimationUnit))
+            self._waiting_arms.note_relax(unit, others, time)
 
     def _note_gaze_change(self, unit: AnimationUnit, time: GlobalTime) -> None:
         gaze = unit.motion.gaze(0.0)
@@ -493,13 +499,14 @@ class AnimationEngine(DefaultEngine):
             self._start_fade_out(FadeOut(base, time, duration, under=layer.weight))
         elif stays:
             self._release(self._persistent.keep(unit.motion), time)
+        waiting = self._waiting_arms.note_end(unit, time)
         if moves_lower_body(layer):
             speed = unit.weight_speed(time)
             since = unit.shown_at if speed else time
             self._start_fade_out(FadeOut(layer, since, duration, unit.height, speed))
             self._humanoid.switch(layer.rotations, GlobalTime(time + CARRIED))
         else:
-            self._release(layer.rotations, time)
+            self._release(layer.rotations.keys() - waiting, time)
 
     def _release(self, joints: Collection[str], time: GlobalTime) -> None:
         """Let joints go over to what is below the motion that had them."""

@@ -59,6 +59,10 @@ _RECENT = 0.07
 """A layer shown longer ago says nothing about its speed, s."""
 
 
+_HALFWAY = 0.5
+"""Share of the pose of a gesture that an arm keeps which waits for the next one (ours)."""
+
+
 _FOLLOWED = 0.012
 """Difference between the turns of a joint in two frames up to which a change of parameters is followed, rad."""
 
@@ -103,7 +107,10 @@ class AnimationUnit(PlanUnit):
         shown_at: time of that, s.
         height: its stacking position when it was shown last.
         notes: faults of the behavior or of its motion that do not prevent playing.
+        kept_up: joints that a retraction brings only halfway to rest.
     """
+
+    kept_up: frozenset[str] = frozenset()
 
     def __init__(self, block: BlockKey, behavior: Behavior, candidates: Candidates, context: MotionContext) -> None:
         """Plan a motion.
@@ -178,6 +185,10 @@ class AnimationUnit(PlanUnit):
     def _usable(self) -> Iterator[Candidate]:
         planned = self._candidates.planned
         return (candidate for candidate in self._candidates if candidate is planned or self._stands_in(candidate))
+
+    def spares(self, resources: frozenset[str]) -> bool:
+        """Return whether another motion, such as one of the other hand, could play it without some resources."""
+        return any(resources.isdisjoint(candidate.motion.resources) for candidate in self._usable())
 
     def continue_from(self, body: Body) -> None:
         """Expect to begin where a body is, if that needs less time than from rest."""
@@ -282,7 +293,7 @@ class AnimationUnit(PlanUnit):
         phase = self._clock.advance(self, now)
         layer = layer_of(motion, Moment(phase, now, context.body(), context.shown()))
         self.height = height(self)
-        self.shown, self.shown_at = self._faded_in(layer, now), now
+        self.shown, self.shown_at = self._raised(self._faded_in(layer, now)), now
         changed = self._parameters_jumped() and _jumps(former, before, layer)
         if motion.jumped or changed:
             context.switch(motion.joints, GlobalTime(now + (CHANGE if changed else motion.entrance)))
@@ -304,6 +315,14 @@ class AnimationUnit(PlanUnit):
         if joined is None or fade_in is None:
             return layer
         return replace(layer, weight=layer.weight * minimum_jerk(share(now, joined, joined + fade_in)))
+
+    def _raised(self, layer: Layer) -> Layer:
+        """Return a layer that retracts with the joints that are kept up on their way to where they wait."""
+        if not self.kept_up or layer.weight == 1.0:
+            return layer
+        weight = _HALFWAY + (1.0 - _HALFWAY) * layer.weight
+        others = {joint: layer.weight / weight for joint in layer.rotations if joint not in self.kept_up}
+        return replace(layer, weight=weight, weights=others or None)
 
     def weight_speed(self, time: GlobalTime) -> float:
         """Return how fast the weight of its layer changes at a time, 1/s; 0 if that is not known."""
