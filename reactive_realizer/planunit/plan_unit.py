@@ -331,15 +331,6 @@ class PlanUnit:
 
     def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
         """Two points, with their times, that are out of order (thesis 7.15), if there are any; tied ones first."""
-        latest = -inf
-        for point in self.points:
-            time = point.peg.value
-            if time is not None:
-                if time < latest:
-                    break
-                latest = time
-        else:
-            return None
         known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
         for points in ([each for each in known if each[0].tied], known):
             for (earlier, time), (later, late) in itertools.pairwise(points):
@@ -352,10 +343,12 @@ class PlanUnit:
 
         This is checked only when it is about to begin, because external times may be out of order temporarily.
         """
-        start, end = self.points[0].peg.value, self.points[-1].peg.value
-        if (lost := self.overtaken()) is not None:
+        times = [point.peg.value for point in self.points]
+        known = [time for time in times if time is not None]
+        if known != sorted(known) and (lost := self.overtaken()) is not None:
             (sync, time), (later, late) = lost
             return Overtaken(sync=sync, time=time, later=later, late=late)
+        start, end = times[0], times[-1]
         if start is None or end is None or end - start >= SHORTEST:
             return None
         return None if self.timing.closed.instant else TooShort()

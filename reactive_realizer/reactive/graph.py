@@ -377,15 +377,19 @@ class Graph:
                 for observer in tuple(cell.observers) if cell.observers else ():
                     # An observer may have detached one that comes after it.
                     if observer in cell.observers:
-                        _try(observer.notify, change, cell.name)
+                        try:
+                            observer.notify(change)
+                        except Exception:
+                            _log_failure(observer, cell.name)
             for listener in self._listeners:
-                _try(listener, commit, commit.stamp.cause)
+                try:
+                    listener(commit)
+                except Exception:
+                    _log_failure(listener, commit.stamp.cause)
         finally:
             self._notifying = False
 
 
-def _try(notify: Callable[[Any], object], value: object, about: str) -> None:
-    try:
-        notify(value)
-    except Exception:
-        logger.exception("%r, which was notified of '%s', raised", notify, about)
+def _log_failure(notified: object, about: str) -> None:
+    """Log the exception of what was notified."""
+    logger.exception("%r, which was notified of '%s', raised", notified, about)

@@ -7,7 +7,7 @@ from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.faults import ForeignAttribute
 from reactive_realizer.bml.names import BLOCK, Location
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS
-from reactive_realizer.clock.units import BlockTime, GlobalTime
+from reactive_realizer.clock.units import BlockTime, GlobalTime, Time
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.errors import Fault, PlayingFault, SchedulingFault
 from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder
@@ -46,7 +46,7 @@ class BlockFeedback:
     def block_progress(self, block: BMLBlock, sync: str, time: GlobalTime) -> None:
         """Report that a block reached one of its sync points."""
         message = BlockProgress(*block.key, sync, time, block.state.value)
-        self._feedback.add_progress(message, _order(block, time, *_BLOCK_ORDER[sync]))
+        self._feedback.add_progress(message, _order(block, block.start.value, time, *_BLOCK_ORDER[sync]))
 
     def sync_point_reached(self, reached: Reached) -> None:
         """Report that a behavior reached a sync point, unless it is one that nobody asked for."""
@@ -62,7 +62,7 @@ class BlockFeedback:
         message = _tuple(SyncPointProgress, (*unit.block, behavior.id, point.id, local, time, point.details, event))
         sync = unit.timing.points.index(point.id)
         # A point that passed before its block started is reported after that start.
-        self._feedback.add_progress(message, _order(block, max(time, start), behavior.order, sync))
+        self._feedback.add_progress(message, _order(block, start, max(time, start), behavior.order, sync))
 
     def fall(self, unit: PlanUnit, time: GlobalTime) -> None:
         """Report that the figure has fallen that a behavior moves by forces."""
@@ -109,13 +109,12 @@ class BlockFeedback:
         return block is not None and block.gives_way
 
 
-def _order(block: BMLBlock, time: GlobalTime, behavior: float, sync: int) -> ProgressOrder:
+def _order(block: BMLBlock, start: Time, time: GlobalTime, behavior: float, sync: int) -> ProgressOrder:
     """The order of progress within a tick.
 
     A block that is revoked before its predicted start counts as one that started when it ended. Times that are reported
     as equal are equal here too, so that rounding does not put an effect before its cause.
     """
-    start = block.start.value
     reported = as_reported(time)
     block_start = reported if start is None or start >= time else as_reported(start)
     return ProgressOrder(reported, block_start, block.arrival, behavior, sync)

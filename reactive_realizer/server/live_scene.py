@@ -3,7 +3,8 @@
 import gc
 import sys
 import uuid
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import Scene
@@ -41,6 +42,18 @@ def keep_from_ticks() -> None:
     gc.freeze()
     gc.set_threshold(_YOUNG, _OLDER)
     sys.setswitchinterval(_SWITCH)
+
+
+@contextmanager
+def _collecting_later() -> Iterator[None]:
+    """Have the garbage collector wait, if it is enabled; then what is left is searched at once, between two ticks."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
 
 
 class LiveScene:
@@ -99,12 +112,13 @@ class LiveScene:
 
     async def step(self, tick: Tick) -> None:
         """Plays one tick and publishes its results."""
-        self.feedback.begin_tick()
-        await self.realizer.step(tick)
-        self.tick = tick.number
-        self.feedback.end_tick(tick.time)
-        self.sounds.tidy(tick.time)
-        self.board.publish()
+        with _collecting_later():
+            self.feedback.begin_tick()
+            await self.realizer.step(tick)
+            self.tick = tick.number
+            self.feedback.end_tick(tick.time)
+            self.sounds.tidy(tick.time)
+            self.board.publish()
 
     def hello(self) -> Message:
         """The first message of a connection."""
