@@ -46,11 +46,9 @@ async def test_a_figure_walks_to_half_a_meter_from_a_target_and_faces_it(either:
     ("way", "there", "faces"),
     [
         (go(), (0.0, 3.5), 0.0),
-        (go("bob"), (3.0, 0.1), 88.6),
         (go("1 2"), (1.0, 2.0), 26.6),
         (go("1 7 2"), (1.0, 2.0), 26.6),
         (go(distance=2), (0.0, 2.0), 0.0),
-        (go(facing="bob"), (0.0, 3.5), 131.2),
         (go("1 2", facing=-90), (1.0, 2.0), -90.0),
         (go("", direction=90, way=1.5), (1.5, 0.0), 90.0),
         (go("1 0", manner="STRAFE"), (1.0, 0.0), 0.0),
@@ -60,6 +58,19 @@ async def test_a_figure_walks_to_half_a_meter_from_a_target_and_faces_it(either:
 async def test_a_figure_arrives_where_its_target_and_its_parameters_say(
     pilot: RealizerPilot, way: str, there: tuple[float, float], faces: float
 ) -> None:
+    await arrives(pilot, way, there, faces)
+
+
+@pytest.mark.parametrize(
+    ("way", "there", "faces"), [(go("bob"), (3.0, 0.1), 88.6), (go(facing="bob"), (0.0, 3.5), 131.2)]
+)
+async def test_a_figure_goes_to_another_one_or_faces_it_in_the_end(
+    pair: RealizerPilot, way: str, there: tuple[float, float], faces: float
+) -> None:
+    await arrives(pair, way, there, faces)
+
+
+async def arrives(pilot: RealizerPilot, way: str, there: tuple[float, float], faces: float) -> None:
     pilot.block("b", way)
     await pilot.advance(7)
     last = pilot.bodies("alice")[-1]
@@ -93,19 +104,15 @@ async def test_a_second_way_begins_where_the_first_one_ends_and_is_planned_so(pi
 
 
 @pytest.mark.parametrize("way", WAYS)
-async def test_feet_that_stand_do_not_slide_or_sink_into_the_ground(pilot: RealizerPilot, way: str) -> None:
+async def test_feet_that_stand_do_not_slide_or_sink_into_the_ground_and_the_pelvis_neither_jerks_nor_drops(
+    pilot: RealizerPilot, way: str
+) -> None:
     pilot.block("b", WAYS[way])
     await pilot.advance(6)
     shown = pilot.bodies("alice")
     assert slide(shown) < 0.01
     assert deepest(shown) < 0.002
-
-
-@pytest.mark.parametrize("way", WAYS)
-async def test_the_pelvis_neither_jerks_nor_drops(pilot: RealizerPilot, way: str) -> None:
-    pilot.block("b", WAYS[way])
-    await pilot.advance(6)
-    track = pelvis(pilot.bodies("alice"))
+    track = pelvis(shown)
     change = np.diff(track, n=2, axis=0) / 0.02**2
     hurries = way in ("running", "in a hurry")
     assert np.linalg.norm(change[:, [0, 2]], axis=1).max() < (16.0 if hurries else 8.0)
