@@ -48,23 +48,26 @@ _WATCH = 0.001
 """Time between two looks at the event loop, s."""
 
 
-def measure(runs: int = 3) -> dict[str, object]:
+def measure(runs: int = 3, texts: Mapping[str, str] = _TEXTS) -> dict[str, object]:
     """The median times for texts of 5, 11 and 60 words, ms, and the 99th percentile of the lag of the event loop, ms.
 
     Args:
         runs: how many texts of each length are spoken, at most 9.
+        texts: by their number of words, each with a place for a word that makes it a new one.
     """
     lags: list[float] = []
     voices = (*_VOICES, "piper") if PLACE in os.environ else _VOICES
-    measured = {voice: asyncio.run(_measure(voice, _HOURS[:runs], lags)) for voice in voices}
+    measured = {voice: asyncio.run(_measure(voice, texts, _HOURS[:runs], lags)) for voice in voices}
     return {**measured, "loop_lag_p99_ms": round(1000 * quantiles(lags, n=100)[98], 2)}
 
 
-async def _measure(voice: str, hours: tuple[str, ...], lags: list[float]) -> Mapping[str, object]:
+async def _measure(
+    voice: str, texts: Mapping[str, str], hours: tuple[str, ...], lags: list[float]
+) -> Mapping[str, object]:
     async with open_scene(SceneOptions(voice=voice)) as scene, asyncio.TaskGroup() as group:
         playing = group.create_task(_play(scene.realizer))
         cold, cached, prepared = {}, {}, {}
-        for words, text in _TEXTS.items():
+        for words, text in texts.items():
             times = [await _speak(scene.realizer, text.format(hour), lags) for hour in hours]
             again = [await _speak(scene.realizer, text.format(hours[-1]), lags) for _ in hours]
             activated = [await _activate(scene.realizer, text.format(hours[-1]), lags) for _ in hours]

@@ -16,10 +16,11 @@ pytest.register_assert_rewrite(
     *(f"reactive_realizer.testing.{kind}_contract" for kind in ("anticipator", "engine", "strategy", "tts"))
 )
 
-# The same examples in every run and on every machine, without a time limit. Hypothesis would also try the constants of
+# The same examples in every run and on every machine, without a time limit; a test that needs more than 50 says so.
+# Hypothesis would also try the constants of
 # our modules, of which another part is imported in each process.
 vars(providers)["is_local_module_file"] = lambda _: False
-settings.register_profile("same", derandomize=True, deadline=None, database=None)
+settings.register_profile("same", derandomize=True, deadline=None, database=None, max_examples=50)
 settings.load_profile("same")
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"

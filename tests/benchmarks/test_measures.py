@@ -3,6 +3,7 @@
 import importlib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -11,7 +12,7 @@ from reactive_realizer.engines.speech.piper.voice import PLACE
 ROOT = Path(__file__).parents[2]
 
 SIZES = ("10", "1000", "100000")
-SMALLEST: dict[str, dict[str, float]] = {
+SMALLEST: dict[str, dict[str, Any]] = {
     "animation": {"most": 1},
     "endurance": {"hours": 0.004},
     "generated": {"blocks": 1},
@@ -24,7 +25,7 @@ SMALLEST: dict[str, dict[str, float]] = {
     "punctuality": {"seconds": 0.5},
     "scheduling": {"most": 2},
     "session": {"blocks": 4},
-    "speech": {"runs": 1},
+    "speech": {"runs": 1, "texts": {words: words + " {}" for words in ("5", "11", "60")}},
 }
 KEYS: dict[str, set[str]] = {
     "animation": {*(f"us_per_character_frame.{n}" for n in ("1", "10", "50", "100")), "characters_at_50fps", "walk_us"},

@@ -26,12 +26,12 @@ STYLES = Path(str(resources.files("reactive_realizer") / "assets/voices/kokoro")
 
 
 @pytest.fixture(scope="module")
-def started() -> Iterator[Speaker]:
-    """A voice that has started, which takes seconds."""
+def started() -> Iterator[tuple[KokoroVoice, asyncio.Runner]]:
+    """A voice that has started, which takes seconds, with its event loop."""
     with asyncio.Runner() as runner:
         voice = KokoroVoice()
         runner.run(voice.start())
-        yield Speaker(voice, runner)
+        yield voice, runner
         runner.run(voice.close())
 
 
@@ -44,9 +44,9 @@ class TestKokoroVoice(TTSContract):
         return KokoroVoice()
 
     @pytest.fixture
-    def speaker(self, started: Speaker) -> Speaker:
+    def speaker(self, started: tuple[KokoroVoice, asyncio.Runner]) -> Speaker:
         """The one that all tests share."""
-        return started
+        return Speaker(*started)
 
     def test_the_same_text_gives_the_same_utterance_in_another_process(self, speaker: Speaker) -> None:
         with asyncio.Runner() as runner:
@@ -71,6 +71,23 @@ class TestKokoroVoice(TTSContract):
         assert last.duration > 4.0
         assert third.words == last.words, "all times are final with the third piece"
         assert first.duration == pytest.approx(last.duration, rel=0.2)
+
+
+@pytest.mark.kokoro
+def test_a_text_begins_before_a_longer_one_is_made(started: tuple[KokoroVoice, asyncio.Runner]) -> None:
+    voice, runner = started
+    made: list[str] = []
+
+    async def say(text: str) -> None:
+        async for part in voice.synthesize(text, (), None):
+            made.append(part.text)  # noqa: PERF401 - in turns with the other text
+
+    async def say_both() -> None:
+        await asyncio.gather(say("one two three four five six seven eight nine ten eleven twelve"), say("Yes."))
+
+    runner.run(say_both())
+    assert made[-1] != "Yes."
+    assert len(made) > 3
 
 
 def loudness(spoken: Utterance) -> np.ndarray:
@@ -122,28 +139,6 @@ async def test_a_character_speaks_with_a_voice_of_its_own_and_one_that_does_not_
 
 
 @pytest.mark.kokoro
-async def test_the_default_scene_speaks() -> None:
-    async with open_pilot(SceneOptions(voice="kokoro")) as pilot:
-        pilot.block("b", '<speech id="s"><text>Yes.</text></speech>')
-        await pilot.advance(2)
-        assert pilot.feedback.warnings == []
-        assert pilot.feedback.reached("b:s:end")
-
-
-@pytest.mark.kokoro
-async def test_a_text_begins_before_a_longer_one_is_made(voice: KokoroVoice) -> None:
-    made: list[str] = []
-
-    async def say(text: str) -> None:
-        async for part in voice.synthesize(text, (), None):
-            made.append(part.text)  # noqa: PERF401 - in turns with the other text
-
-    await asyncio.gather(say("one two three four five six seven eight nine ten eleven twelve"), say("Yes."))
-    assert made[-1] != "Yes."
-    assert len(made) > 3
-
-
-@pytest.mark.kokoro
 async def test_killing_the_worker_in_the_middle_of_a_speech_ends_it_with_a_warning_and_nothing_else() -> None:
     async with open_pilot(SceneOptions(voice="kokoro")) as pilot:
         pilot.patient = False
@@ -175,10 +170,10 @@ async def test_killing_the_worker_in_the_middle_of_a_speech_ends_it_with_a_warni
 @pytest.mark.kokoro
 def test_pieces_of_a_sentence_are_as_loud_as_in_one() -> None:
     model = KokoroModel(None, read_styles([STYLES]))
-    predicted = model.predict([43, 48, 51, 16, 47, 62, 51, 16] * 10, "af_heart", 1.0)
+    predicted = model.predict([43, 48, 51, 16, 47, 62, 51, 16] * 5, "af_heart", 1.0)
     frames, sound = sum(predicted.durations), np.frombuffer
     whole = sound(model.speak(predicted, 0, frames), "<i2").astype(float)
-    for first, last in pairwise([20, 60, 100, frames - 20]):
+    for first, last in pairwise([20, 60, frames - 20]):
         piece = sound(model.speak(predicted, first, last), "<i2").astype(float)
         difference = 20 * np.log10(piece.std() / whole[first * 600 : last * 600].std())
         assert abs(difference) < 3.0

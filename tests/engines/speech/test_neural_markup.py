@@ -1,6 +1,9 @@
 """Markup of which the network of the natural voice is told."""
 
+import asyncio
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Protocol
 
 import pytest
 
@@ -46,34 +49,43 @@ def test_a_pronunciation_replaces_the_sounds_of_its_words() -> None:
     assert [word.sounds for word in said] == [("t",), ("\u02c8e\u026a", "n", "e\u02d0", "b\u0303"), (), ("t",)]
 
 
+class Say(Protocol):
+    """Speaks the text with markup and marks."""
+
+    def __call__(self, *markup: Markup, marks: tuple[tuple[str, int], ...] = ()) -> Utterance: ...
+
+
+@pytest.fixture(scope="module")
+def say() -> Iterator[Say]:
+    """Speaks by a voice that all tests share."""
+    with asyncio.Runner() as runner:
+        voice = KokoroVoice()
+
+        def speak(*markup: Markup, marks: tuple[tuple[str, int], ...] = ()) -> Utterance:
+            return runner.run(completed(voice.synthesize_markup(TEXT, marks, None, markup)))
+
+        yield speak
+        runner.run(voice.close())
+
+
 @pytest.mark.kokoro
-async def test_what_is_said_instead_is_heard_and_what_the_voice_cannot_do_is_left_out() -> None:
+def test_what_is_said_instead_is_heard_and_what_the_voice_cannot_do_is_left_out(say: Say) -> None:
     spelled, other = (
         markup(MarkupKind.SUB, "A4", "A four, the black one,"),
         markup(MarkupKind.EMPHASIS, "now", "strong"),
     )
-    voice = KokoroVoice()
-    try:
-        plain = await completed(voice.synthesize(TEXT, (), None))
-        said = await completed(voice.synthesize_markup(TEXT, (("m", TEXT.index("now")),), None, (spelled, other)))
-    finally:
-        await voice.close()
+    plain = say()
+    said = say(spelled, other, marks=(("m", TEXT.index("now")),))
     assert said.left_out == (other,)
     assert said.marks["m"] == said.words[3].start > plain.words[3].start + 0.5
     assert [word.text for word in said.words] == TEXT.split()
 
 
 @pytest.mark.kokoro
-async def test_a_rate_and_a_break_are_heard() -> None:
+def test_a_rate_and_a_break_are_heard(say: Say) -> None:
     slow = replace(markup(MarkupKind.RATE, "model A4"), number=0.5)
     silence = Markup(MarkupKind.BREAK, TEXT.index("now"), TEXT.index("now"), "<break>", number=1.5)
-    voice = KokoroVoice()
-    try:
-        plain = await completed(voice.synthesize(TEXT, (), None))
-        slower = await completed(voice.synthesize_markup(TEXT, (), None, (slow,)))
-        later = await completed(voice.synthesize_markup(TEXT, (), None, (silence,)))
-    finally:
-        await voice.close()
+    plain, slower, later = say(), say(slow), say(silence)
     assert slower.left_out == later.left_out == ()
     begin, end = (TEXT.split().index(word) for word in ("model", "now"))
     assert _between(slower, begin, end) > 1.6 * _between(plain, begin, end)
