@@ -153,12 +153,14 @@ def read_in_a_block(read: SyncRef, written: SyncRef) -> SyncRef:
     return read.read_in("stands-here", {written.behavior} if written.behavior else ())
 
 
+@pytest.mark.no_cover  # others cover the same lines, and tracing so many cases takes long
 @settings(derandomize=True, max_examples=300)
 @given(absolute | relative)
 def test_the_text_of_a_reference_is_parsed_to_the_same_reference(ref: SyncRef) -> None:
     assert read_in_a_block(SyncRef.parse(str(ref), LIMITS), ref) == ref
 
 
+@pytest.mark.no_cover  # others cover the same lines, and tracing so many cases takes long
 @settings(derandomize=True, max_examples=300)
 @given(st.text() | st.text("ab1:+-. e", max_size=20))
 def test_any_text_is_parsed_or_raises_a_realizer_error(text: str) -> None:

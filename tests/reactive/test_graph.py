@@ -377,6 +377,7 @@ def test_a_body_that_raises_leaves_a_graph_that_works(trace: Trace) -> None:
     assert below.value == 2
 
 
+@pytest.mark.no_cover  # others cover the same lines, and tracing so many cases takes long
 def test_a_chain_of_100_000_cells_needs_no_recursion(trace: Trace) -> None:
     top = trace.source("top")
     cell: Cell[int] = top

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -168,6 +169,7 @@ def sessions(draw: st.DrawFn) -> tuple[list[Node], list[list[Action]]]:
     return cells, draw(st.lists(st.lists(step, max_size=5), min_size=1, max_size=6))
 
 
+@pytest.mark.no_cover  # others cover the same lines, and tracing so many cases takes long
 @settings(max_examples=300)
 @given(sessions())
 def test_propagation_gives_the_same_as_computing_everything_again(

@@ -94,6 +94,7 @@ def test_independent_contradictions_are_all_reported() -> None:
     assert [plan[f"{id_}:start"] for id_ in "abc"] == [1.0] * 3
 
 
+@pytest.mark.no_cover  # others cover the same lines, and tracing so many cases takes long
 @given(problems(most=12))
 def test_the_constraints_that_are_kept_hold_in_any_problem(asked: SchedulingProblem) -> None:
     assert violations(asked, solve(ConvexStrategy(), asked)) == []

@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies._internal.random import ArtificialRandom
@@ -23,6 +24,7 @@ def plainly(arcs: list[Arc[None]]) -> list[float]:
     return times
 
 
+@pytest.mark.no_cover  # others cover the same lines, and tracing so many cases takes long
 @settings(derandomize=True, max_examples=400)
 @given(arcs_between)
 def test_times_are_the_least_that_meet_all_arcs_or_there_is_a_positive_cycle(arcs: list[Arc[None]]) -> None:
@@ -35,6 +37,7 @@ def test_times_are_the_least_that_meet_all_arcs_or_there_is_a_positive_cycle(arc
         assert times == plainly(arcs)
 
 
+@pytest.mark.no_cover  # others cover the same lines, and tracing so many cases takes long
 @settings(derandomize=True, max_examples=100)
 @given(st.permutations(range(40)), st.randoms(use_true_random=False))
 def test_the_time_of_a_chain_does_not_depend_on_the_order_of_arcs_and_nodes(
