@@ -202,10 +202,11 @@ def attribute_of_block(node: ast.AST) -> list[str]:
 
 
 def called(path: Path) -> Iterator[str]:
-    """The functions, classes and methods that a module calls."""
+    """The functions, classes and methods that a module calls, and the tuples that it makes."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute | ast.Name):
-            yield node.func.attr if isinstance(node.func, ast.Attribute) else node.func.id
+            name = node.func.attr if isinstance(node.func, ast.Attribute) else node.func.id
+            yield node.args[0].id if name == "_tuple" and isinstance(node.args[0], ast.Name) else name
 
 
 def test_sync_points_are_reported_in_one_place() -> None:
