@@ -112,10 +112,10 @@ class TimePeg(Derived[Time]):
     def keep_before(self, successor: "TimePeg", distance: float = 0.0) -> None:
         """Within a transaction, keep this peg from coming later than at a distance (s) from another one from now on.
 
-        If the other peg depends on this one, this one is pinned at its latest time instead.
+        If the other peg depends on this one, this one is pinned at the latest time that is not too late instead.
         """
         if self.pinned or successor.depends_on(self):
-            self.pin(None if successor.value is None else GlobalTime(successor.value + distance))
+            self._pin_before(successor, distance)
         else:
             self.rebind((*self.dependencies, successor), not_after_next(self.formula, distance))
             self.neighbors += (Neighbor(distance, later=True),)
@@ -153,6 +153,18 @@ class TimePeg(Derived[Time]):
         peg = OffsetPeg(self.graph, name, self, 0.0)
         peg.pin(time)
         return peg
+
+    def _pin_before(self, successor: "TimePeg", distance: float) -> None:
+        """Pin it at a distance (s) from another peg, which may come earlier because of that, but by less."""
+        before, aim = self.value, successor.value
+        latest = None if aim is None else GlobalTime(aim + distance)
+        self.pin(latest)
+        aim = successor.value
+        if before is None or latest is None or aim is None:
+            return
+        step, left = latest - before, aim + distance - latest
+        if step < left < 0.0:  # each step leaves the same share of it to the next: the sum of a geometric series
+            self.pin(GlobalTime(before + step / (1.0 - left / step)))
 
     @property
     @abstractmethod

@@ -14,5 +14,10 @@ async def test_a_random_session_breaks_no_law(strategy: str, seed: int) -> None:
     assert (await examine(random_session(Random(seed)), strategy)).breaches == []
 
 
+async def test_a_stroke_that_follows_its_start_is_not_hurried_by_what_its_start_gives_way() -> None:
+    """In this session, the start of a stroke comes late, and the stroke is tied to a gaze that begins with it."""
+    assert (await examine(random_session(Random(314454)), "smartbody")).breaches == []
+
+
 def test_a_seed_always_gives_the_same_session() -> None:
     assert random_session(Random(5)) == random_session(Random(5)) != random_session(Random(6))

@@ -255,6 +255,16 @@ def test_a_peg_that_is_kept_before_one_that_depends_on_it_is_pinned_there(graph:
     assert (stroke.value, stroke.pinned, last.value) == (2.0, True, 2.0)
 
 
+def test_a_peg_that_is_kept_before_one_that_follows_it_in_part_is_pinned_where_the_distance_is_kept(
+    graph: Graph,
+) -> None:
+    ready = OffsetPeg(graph, "ready", AnticipatorPeg(graph, "hit", GlobalTime(3.0)), 0.0)
+    stroke = RatioPeg(graph, "stroke", ready, AnticipatorPeg(graph, "end", GlobalTime(4.0)), 0.25)
+    with graph.transaction("test"):
+        ready.keep_before(stroke, -0.5)
+    assert (ready.value, ready.pinned, stroke.value) == (2.0, True, 2.5)
+
+
 def test_a_peg_that_is_kept_after_a_time_follows_its_natural_time_from_then_on(graph: Graph) -> None:
     hit = AnticipatorPeg(graph, "hit", GlobalTime(1.0))
     stroke = OffsetPeg(graph, "stroke", hit, 0.0)
