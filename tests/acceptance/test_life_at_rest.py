@@ -45,10 +45,43 @@ async def test_head_fingers_and_eyes_move_a_little() -> None:
     assert len(saccades) > 40
 
 
+def weights(pilot: RealizerPilot, morph: str) -> NDArray[np.float64]:
+    """Of a morph target in each frame, (F,)."""
+    morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
+    return np.array([frame.weights[morphs.index(morph)] for frame in pilot.frames["alice"]])
+
+
+async def test_the_face_smiles_a_little_more_and_less_and_lids_and_brows_move() -> None:
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        await minute(pilot)
+        smile = weights(pilot, "mouthSmileLeft")
+        assert 0.03 < smile.min() < smile.max() < 0.2
+        for morph in ("mouthSmileLeft", "eyeSquintLeft", "browInnerUp"):
+            assert np.ptp(weights(pilot, morph)) > 0.05
+            assert np.abs(np.diff(weights(pilot, morph))).max() < 0.005
+
+
+async def test_it_gives_way_softly_to_an_expression_and_comes_back() -> None:
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        pilot.watch()
+        await pilot.advance(2)
+        pilot.block(
+            "b", '<faceLexeme id="f" lexeme="LOWER_MOUTH_CORNERS" start="0" attackPeak="0.5" relax="2" end="2.5"/>'
+        )
+        await pilot.advance(5)
+        smile = weights(pilot, "mouthSmileLeft")
+        assert smile[150:200].max() == 0.0
+        assert smile[-1] > 0.03
+        assert np.abs(np.diff(smile)).max() < 0.01
+        assert weights(pilot, "browInnerUp")[150:200].max() > 0.0
+
+
 @pytest.mark.parametrize(("degree", "most"), [(0.3, 1.0), (0, 0.0)])
 async def test_idle_has_a_degree(tmp_path: Path, degree: float, most: float) -> None:
     human = tmp_path / "human.toml"
     human.write_text(f"[character.alice]\nidle = {degree}\n", encoding="utf-8")
     async with open_pilot(SceneOptions(human, "text")) as pilot:
         head = directions(await minute(pilot), "skullbase")
+        smile = weights(pilot, "mouthSmileLeft")
     assert np.linalg.norm(head - head.mean(axis=0), axis=1).max() <= most
+    assert (smile.max() == 0.0) == (degree == 0)

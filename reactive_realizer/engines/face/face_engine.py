@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import Awaitable, Collection, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from random import Random
 from types import MappingProxyType
 from typing import Any
 
@@ -27,6 +28,7 @@ from reactive_realizer.engines.face.face_unit import (
     FaceShiftUnit,
     FaceUnit,
 )
+from reactive_realizer.engines.face.living_face import LivingFace
 from reactive_realizer.engines.face.weights import Weights, added, limited, scaled
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
@@ -62,6 +64,7 @@ class FaceEngine(DefaultEngine):
         self._lip_sync = context.lip_sync
         self._shares = MouthShares()
         self._resting: Weights = {}
+        self._living = LivingFace(Random(context.seed), context.idle) if context.idle else None
         self._fading_faces = Fades(_FADE)
         self._fading_mouths = Fades(_MOUTH_FADE)
         self._mouth: Mapping[str, float] = {}
@@ -128,7 +131,10 @@ class FaceEngine(DefaultEngine):
             resting = between(resting, shift.weights, shift.share)
         resting = resting_face_under(resting, [(unit.weights, unit.level) for unit in playing])
         faces = [{m: w * unit.level for m, w in unit.weights.items()} for unit in playing]
-        face = self._shares.of(added([resting, *faces, *self._fading_faces.at(now)]))
+        shown = [resting, *faces, *self._fading_faces.at(now)]
+        if self._living is not None:
+            shown.append(self._living.at(now, shown))
+        face = self._shares.of(added(shown))
         return greatest(face, self._spoken(mouth or {}, now))
 
     def _animation(self, behavior: FaceKeyframe) -> FaceAnimation:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engines.face.face_unit import MOUTH_MORPHS
@@ -98,9 +99,9 @@ def resting_face_under(resting: Weights, expressions: Iterable[tuple[Weights, fl
     """
     taken: dict[str, float] = {}
     for weights, level in expressions:
-        for region in set(map(_region, weights)):
+        for region in set(map(region_of, weights)):
             taken[region] = max(taken.get(region, 0.0), min(level, 1.0))
-    return {morph: weight * (1.0 - taken.get(_region(morph), 0.0)) for morph, weight in resting.items()}
+    return {morph: weight * (1.0 - taken.get(region_of(morph), 0.0)) for morph, weight in resting.items()}
 
 
 def between(before: Weights, after: Weights, share: float) -> dict[str, float]:
@@ -114,6 +115,8 @@ def greatest(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, 
     return {morph: max(one.get(morph, 0.0), other.get(morph, 0.0)) for morph in (*one, *(other.keys() - one.keys()))}
 
 
-def _region(morph: str) -> str:
+@cache
+def region_of(morph: str) -> str:
+    """The region of the face that a morph target moves: mouth, nose, cheek, eye, brow; others are their own."""
     region = next((each for each in _REGIONS if morph.startswith(each)), morph)
     return "mouth" if region in MOUTH_MORPHS else region

@@ -10,7 +10,7 @@ from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
-from .conftest import weight
+from .conftest import STILL, weight
 from .test_face_lexemes import OURS
 
 BINDING = """<facebinding>
@@ -50,6 +50,7 @@ SKEPTICAL = """<FACSConfiguration>
 def assets(tmp_path: Path) -> Path:
     (tmp_path / "facebinding.xml").write_text(BINDING)
     (tmp_path / "skeptical.xml").write_text(SKEPTICAL)
+    (tmp_path / "still.toml").write_text(STILL)
     return tmp_path
 
 
@@ -70,7 +71,7 @@ async def test_a_lexeme_plays_a_place_on_the_wheel_a_morph_target_or_action_unit
     assert delighted.feedback.warnings == []
     assert weight(delighted, "mouthSmileLeft").max() == pytest.approx(0.5 * OURS["JOY"]["mouthSmileLeft"])
     assert weight(await played(scene(assets), "pout"), "mouthPucker").max() == 1.0
-    skeptical = await played(scene(assets), "skeptical", 0.5)
+    skeptical = await played(scene(assets, assets / "still.toml"), "skeptical", 0.5)
     shown = {
         morph: weight(skeptical, morph).max() for morph in ("browOuterUpLeft", "browOuterUpRight", "browDownRight")
     }
