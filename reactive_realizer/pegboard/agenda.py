@@ -6,9 +6,10 @@ from operator import itemgetter
 from typing import Generic, TypeVar
 
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.pegboard.peg_follower import PegFollower
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.reactive.errors import Failure
-from reactive_realizer.reactive.graph import Change, Observer
+from reactive_realizer.reactive.graph import Change
 
 T = TypeVar("T")
 
@@ -16,8 +17,8 @@ _FEW = 32
 """Outdated entries of the heap that are left there."""
 
 
-class _Entry(Observer, Generic[T]):
-    """An item on an agenda, which observes its pegs.
+class _Entry(PegFollower, Generic[T]):
+    """An item on an agenda, which follows its pegs.
 
     Attributes:
         number: of its last reading; what has an earlier number is outdated. 0 before it is read, and once removed.
@@ -25,29 +26,18 @@ class _Entry(Observer, Generic[T]):
         moved: whether it may be due later than that.
     """
 
-    __slots__ = ("_agenda", "_pegs", "item", "moved", "number", "time")
+    __slots__ = ("_agenda", "item", "moved", "number", "time")
 
     def __init__(self, agenda: "Agenda[T]", item: T) -> None:
+        super().__init__()
         self._agenda = agenda
-        self._pegs: dict[TimeCell, None] = {}
         self.item = item
         self.number = 0
         self.time: Time = None
         self.moved = False
 
-    def follow(self, pegs: Iterable[TimeCell]) -> None:
-        """Observe these pegs, and no others any more."""
-        old, new = self._pegs, dict.fromkeys(pegs)
-        self._pegs = new
-        for peg in new:
-            if peg not in old:
-                peg.attach(self)
-        for peg in old:
-            if peg not in new:
-                peg.detach(self)
-
     def leave(self) -> None:
-        """Observe no peg any more, and let go of the item: the heap may keep the entry for a while."""
+        """Follow no peg any more, and let go of the item: the heap may keep the entry for a while."""
         self.follow(())
         self.number = 0
         del self.item

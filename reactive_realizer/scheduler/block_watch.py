@@ -1,10 +1,10 @@
 """Observes blocks: which of them have moved, and from which times."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from reactive_realizer.pegboard.peg_follower import PegFollower
 from reactive_realizer.pegboard.time_peg import TimeCell
-from reactive_realizer.pegboard.watch import Watch
 from reactive_realizer.reactive.graph import Cell, Change
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
@@ -30,11 +30,27 @@ class BlockMoves:
         return in_order(block for block in blocks if not block.state.ended), old
 
 
+class _BlockFollower(PegFollower):
+    """Follows the pegs of a block, and notes their moves."""
+
+    __slots__ = ("_moves", "block")
+
+    def __init__(self, block: BMLBlock, moves: Sequence[BlockMoves]) -> None:
+        super().__init__()
+        self.block = block
+        self._moves = moves
+
+    def notify(self, change: Change) -> None:
+        """Note that a peg of the block has moved."""
+        for moves in self._moves:
+            moves.note(self.block, change)
+
+
 class BlockWatch:
     """Observes the pegs of the blocks that are alive, and those of others that their constraints name."""
 
     def __init__(self) -> None:
-        self._watch: Watch[BMLBlock] = Watch(self._note)
+        self._followers: dict[BMLBlock, _BlockFollower] = {}
         self._moves: list[BlockMoves] = []
 
     def moves(self) -> BlockMoves:
@@ -45,19 +61,20 @@ class BlockWatch:
 
     def follow(self, block: BMLBlock) -> None:
         """Follow the present pegs of a block."""
-        self._watch.follow(block, block.pegs)
+        if block not in self._followers:
+            self._followers[block] = _BlockFollower(block, self._moves)
+        self._followers[block].follow(block.pegs)
 
     def forget(self, block: BMLBlock) -> None:
         """Follow a block no more."""
-        self._watch.forget(block)
+        follower = self._followers.pop(block, None)
+        if follower is not None:
+            follower.follow(())
 
     def following(self, pegs: Iterable[TimeCell]) -> list[BMLBlock]:
         """The blocks that have any of some pegs, or whose constraints name one."""
-        return in_order(self._watch.following(pegs))
-
-    def _note(self, block: BMLBlock, change: Change) -> None:
-        for moves in self._moves:
-            moves.note(block, change)
+        followers = {each for peg in pegs for each in peg.observers if type(each) is _BlockFollower}
+        return in_order(each.block for each in followers)
 
 
 def in_order(blocks: Iterable[BMLBlock]) -> list[BMLBlock]:
