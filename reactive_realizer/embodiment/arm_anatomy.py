@@ -7,6 +7,7 @@ upper arm does: the elbow swivels about the line from shoulder to wrist.
 """
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 from reactive_realizer.embodiment.body import Skeleton
@@ -95,6 +96,7 @@ class ArmAnatomy(NamedTuple):
     inward: float
 
     @classmethod
+    @lru_cache
     def of(cls, skeleton: Skeleton, side: str) -> "ArmAnatomy":
         """Return the left ("l") or right ("r") arm of a skeleton."""
         return cls(skeleton.offset(f"{side}_elbow"), skeleton.offset(f"{side}_wrist"), 1.0 if side == "l" else -1.0)
@@ -154,7 +156,7 @@ class ArmAnatomy(NamedTuple):
 def _hand(wrist: Quat, along: Vec3) -> Quat:
     """Return the rotation of a hand within its limits."""
     turned = twist(wrist, along)
-    about = _about(wrist, along)
+    about = dot(rotation_vector(turned), along)
     swing = multiply(conjugate(turned), wrist)
     across, y, z = rotation_vector(swing)
     less = _within(across, _ULNAR, _RADIAL)

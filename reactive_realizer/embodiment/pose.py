@@ -1,7 +1,7 @@
 """Composes layers of motion into one pose, in a fixed order."""
 
 import math
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
 from operator import attrgetter
@@ -93,28 +93,16 @@ def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> ComposedBody:
     (`turned_further`), so that a head that is turned aside nods about its own axis.
     """
     lower, added, upper = _sorted(layers)
-    steady = _over(Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY)), lower)
-    shown = _turned_further(steady, added)
-    return ComposedBody(_over(shown, upper), _over(steady, upper))
+    steady = over(Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY)), *lower)
+    shown = turned_further(steady, *added)
+    return ComposedBody(over(shown, *upper), over(steady, *upper))
 
 
-def over(body: Body, layer: Layer) -> Body:
-    """Lay a layer over a body by its weight, along the shorter arc. Joints that the body lacks are ignored."""
-    return _over(body, (layer,))
-
-
-def turned_further(body: Body, layer: Layer) -> Body:
-    """Add an additive layer to a body by its weight: each joint turns about its own axes.
+def over(body: Body, *layers: Layer) -> Body:
+    """Lay layers over a body by their weights, along the shorter arc, one after another.
 
     Joints that the body lacks are ignored.
     """
-    return _turned_further(body, (layer,))
-
-
-# Both take several layers, so that a frame does not need a body for each of them.
-
-
-def _over(body: Body, layers: Collection[Layer]) -> Body:
     if not layers:
         return body
     pose, root = dict(body.pose), body.root
@@ -129,7 +117,11 @@ def _over(body: Body, layers: Collection[Layer]) -> Body:
     return Body(body.skeleton, _known(pose, body), root)
 
 
-def _turned_further(body: Body, layers: Collection[Layer]) -> Body:
+def turned_further(body: Body, *layers: Layer) -> Body:
+    """Add additive layers to a body by their weights, one after another: each joint turns about its own axes.
+
+    Joints that the body lacks are ignored.
+    """
     if not layers:
         return body
     pose, root = dict(body.pose), body.root

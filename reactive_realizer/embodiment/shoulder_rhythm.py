@@ -55,7 +55,7 @@ def raised(arm: ArmRotations, skeleton: Skeleton, side: str) -> tuple[Quat, ArmR
     back, clavicle = conjugate(girdle), skeleton.offset(f"{side}_shoulder")
     wrist = rotate(arm.shoulder, add(limb.upper, rotate(arm.elbow, limb.lower)))
     goal = rotate(back, add(wrist, subtract(clavicle, rotate(girdle, clavicle))))
-    _, elbow = limb.solve(goal)
+    elbow = limb.flexed(goal)
     shoulder = multiply(back, arm.shoulder)
     reached = rotate(shoulder, add(limb.upper, rotate(elbow, limb.lower)))
     shoulder = multiply(between(unit(reached), unit(goal)), shoulder)

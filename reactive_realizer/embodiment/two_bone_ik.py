@@ -19,6 +19,9 @@ _DOWN: Vec3 = (0.0, -1.0, 0.0)
 _FOLDED = math.radians(30.0)
 _NEARLY_ZERO = 1e-9
 
+_MOST_CIRCLES = 256
+"""Number of cached circles: knees bend about the same ones for as long as a posture lasts."""
+
 
 class _Circle(NamedTuple):
     """The circle on which the end of a limb moves while its middle joint turns about a hinge.
@@ -38,6 +41,7 @@ class _Circle(NamedTuple):
     begin: float
 
     @classmethod
+    @lru_cache(_MOST_CIRCLES)
     def of(cls, axis: Vec3, upper: Vec3, lower: Vec3) -> Self:
         """Return the circle of two bones."""
         across, along = cross(axis, lower), rejected(lower, axis)
@@ -119,13 +123,23 @@ class Limb:
         middle, end = self._bent(self._circle, self._reachable(far))
         straight = unit(end)
         # Perpendicular to limb and hinge: the direction of a bent middle joint, defined for a straight limb too.
-        side = unit(rejected(cross(self.upper, self._circle.axis), straight))
+        side = unit(rejected(self._across, straight))
         return from_frames(straight, side, way, self._middle_side(way, swivel)), middle
+
+    def flexed(self, goal: Vec3) -> Quat:
+        """Return the rotation of the middle joint alone, as `solve` does: it only depends on how far the goal is."""
+        middle, _ = self._bent(self._circle, self._reachable(length(goal)))
+        return middle
 
     def missed(self, goal: Vec3) -> float:
         """Return the distance at which the end stays from a goal, m, as `solve` places it."""
         far = length(goal)
         return abs(self._reachable(far) - far)
+
+    @cached_property
+    def _across(self) -> Vec3:
+        """A vector perpendicular to the first bone and the hinge."""
+        return cross(self.upper, self._circle.axis)
 
     @cached_property
     def _length(self) -> float:
@@ -167,7 +181,7 @@ class Limb:
         look alike. That turn is undefined only straight opposite, where no limb reaches.
         """
         side = rotate(between(self.AHEAD, way), self.SIDE)
-        return rotate(from_axis_angle(way, -swivel), side)
+        return rotate(from_axis_angle(way, -swivel), side) if swivel else side
 
 
 class Arm(Limb):

@@ -66,6 +66,7 @@ class FootPlanting:
         self._legs = walks(skeleton)
         self._alternation = FootAlternation()
         self._leg_parts: object = None
+        self._lower: tuple[list[object], _LegState] | None = None
         self._layers: tuple[Layer, ...] = ()
 
     def layers(self, layers: Iterable[Layer], now: GlobalTime, walking: Sequence[Transform] = ()) -> tuple[Layer, ...]:
@@ -81,7 +82,7 @@ class FootPlanting:
         # The pelvis usually rests; then the layers of the last frame are still valid.
         if walking:
             lower, added = _in_order(concerned)
-            body = reduce(_pushed, added, reduce(over, map(_legs_of, lower), self._start))
+            body = turned_further(over(self._start, *map(_legs_of, lower)), *map(_legs_of, added))
             self._leg_parts, self._layers = None, (checked(Layer(LayerKind.END_EFFECTOR, legs(body, walking))),)
         elif self._legs and not (parts == self._leg_parts and self._alternation.settled):
             self._leg_parts, self._layers = parts, tuple(map(checked, self._planted(concerned, now)))
@@ -89,19 +90,26 @@ class FootPlanting:
 
     def _planted(self, layers: Iterable[Layer], now: GlobalTime) -> Iterator[Layer]:
         lower, added = _in_order(layers)
-        below, wanted, _, softness = reduce(_over, lower, _stand(self._start))
+        below, wanted, _, softness = self._below(lower)
         places = self._alternation(wanted, now)
         if not added and self._alternation.settled and all(layer.weight_of(ROOT) == 1.0 for layer in lower):
             return
         softness = max(softness, _CAUTIOUS * self._alternation.caution)
-        body = reduce(_pushed, added, below)
+        body = turned_further(below, *map(_legs_of, added))
         lacking = [_lacking(body, side, foot) for side, foot in zip(SIDES, places, strict=True)]
         sinking = min(_DEEPEST, _highest((0.0, *lacking), softness))
         if sinking > _NOTHING:
             lowered = Layer(LayerKind.ADDITIVE, {}, root=(0.0, -sinking, 0.0))
-            body = _pushed(body, lowered)
+            body = turned_further(body, lowered)
             yield lowered
         yield Layer(LayerKind.END_EFFECTOR, legs(body, places))
+
+    def _below(self, lower: Sequence[Layer]) -> _LegState:
+        """Return pelvis and legs under the layers that are not additive: they often rest while additive ones move."""
+        parts = [_leg_part(layer) for layer in lower]
+        if self._lower is None or self._lower[0] != parts:
+            self._lower = parts, reduce(_over, lower, _stand(self._start))
+        return self._lower[1]
 
 
 def _in_order(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer]]:
@@ -141,11 +149,6 @@ def _over(below: _LegState, layer: Layer) -> _LegState:
         softness=(1.0 - weight)
         * (below.softness + 4.0 * weight * _SOFTNESS * lift([foot.place for foot in below.feet], places)),
     )
-
-
-def _pushed(body: Body, layer: Layer) -> Body:
-    """Return a body with the part of an additive layer that affects pelvis and legs."""
-    return turned_further(body, _legs_of(layer))
 
 
 def _legs_of(layer: Layer) -> Layer:
