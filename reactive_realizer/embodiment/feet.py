@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 from reactive_realizer.embodiment.body import Body, Skeleton, Transform
 from reactive_realizer.embodiment.joints import ROOT, SIDES
@@ -11,6 +12,8 @@ from reactive_realizer.embodiment.vector import Vec3, add, dot, length, scale, s
 
 LEG_JOINTS = frozenset(f"{side}_{joint}" for side in SIDES for joint in Leg.JOINTS)
 """The joints that turn to place a foot."""
+
+_LEGS = {side: tuple(f"{side}_{joint}" for joint in Leg.JOINTS) for side in SIDES}
 
 _NOTHING = 1e-6
 """m"""
@@ -27,7 +30,8 @@ def feet(body: Body) -> tuple[Transform, ...]:
     Raises:
         KeyError: the body lacks an ankle.
     """
-    return tuple(body.transform(f"{side}_ankle") for side in SIDES)
+    left, right = _ANKLES
+    return body.transform(left), body.transform(right)
 
 
 def legs(body: Body, places: Sequence[Transform]) -> dict[str, Quat]:
@@ -37,8 +41,8 @@ def legs(body: Body, places: Sequence[Transform]) -> dict[str, Quat]:
         body: of a figure that `walks`.
         places: goal transforms of the ankles, left first.
     """
-    left, right = (leg(body, side, foot) for side, foot in zip(SIDES, places, strict=True))
-    return left | right
+    left, right = places
+    return leg(body, "l", left) | leg(body, "r", right)
 
 
 def leg(body: Body, side: str, foot: Transform) -> dict[str, Quat]:
@@ -52,7 +56,7 @@ def leg(body: Body, side: str, foot: Transform) -> dict[str, Quat]:
         side: "l" or "r".
         foot: goal transform of the ankle.
     """
-    hip, knee, ankle = (f"{side}_{joint}" for joint in Leg.JOINTS)
+    hip, knee, ankle = _LEGS[side]
     pelvis = body.transform(ROOT).rotation
     way = rotate(conjugate(pelvis), subtract(foot.position, body.transform(hip).position))
     shank = rotate(body.rotation(knee), body.skeleton.offset(ankle))
@@ -65,10 +69,11 @@ def leg(body: Body, side: str, foot: Transform) -> dict[str, Quat]:
     return {hip: hip_turn, knee: knee_turn, ankle: multiply(conjugate(above), foot.rotation)}
 
 
+@lru_cache
 def reach(skeleton: Skeleton, side: str) -> float:
     """Return the distance from hip to ankle ("l" or "r") in the default pose, m; the knee is almost straight."""
-    knee, ankle = (skeleton.offset(f"{side}_{joint}") for joint in Leg.JOINTS[1:])
-    return length(add(knee, ankle))
+    _, knee, ankle = _LEGS[side]
+    return length(add(skeleton.offset(knee), skeleton.offset(ankle)))
 
 
 def drawn(body: Body, places: Sequence[Transform], way: Vec3) -> list[Transform]:

@@ -144,12 +144,13 @@ def _known(pose: dict[str, Quat], body: Body) -> dict[str, Quat]:
 
 def _sorted(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer], list[Layer]]:
     """Sort layers from lowest to highest: those below the additive layers, the additive ones, those above."""
-    ordered = sorted(layers, key=attrgetter("kind", "priority"))
-    return (
-        [layer for layer in ordered if layer.kind < LayerKind.ADDITIVE],
-        [layer for layer in ordered if layer.kind is LayerKind.ADDITIVE],
-        [layer for layer in ordered if layer.kind > LayerKind.ADDITIVE],
-    )
+    lower: list[Layer] = []
+    added: list[Layer] = []
+    upper: list[Layer] = []
+    additive = LayerKind.ADDITIVE
+    for layer in sorted(layers, key=attrgetter("kind", "priority")):
+        (added if layer.kind is additive else lower if layer.kind < additive else upper).append(layer)
+    return lower, added, upper
 
 
 def checked(layer: Layer) -> Layer:

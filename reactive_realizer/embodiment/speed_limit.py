@@ -155,10 +155,12 @@ class SpeedLimit:
 
     def _hasty(self, body: Body, wanted: Body, duration: float) -> tuple[str, float] | None:
         """Return a wrist that would move too far, and the factor for the turns of the joints above it."""
+        # As far as it may go in any direction, from rest too, if it has not fallen behind.
+        at_least = min(WRIST_SPEED, WRIST_ACCELERATION * duration) * duration
         for wrist in _WRISTS:
             way = subtract(_from_root(wrist, body), self._places[wrist])
             moved = length(way)
-            if moved == 0.0:
+            if moved == 0.0 or (self._shown is self._goal and moved <= at_least):
                 continue
             direction = scale(way, 1.0 / moved)
             reach = min(

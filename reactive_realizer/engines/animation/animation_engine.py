@@ -3,6 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Awaitable, Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from operator import itemgetter
 from random import Random
 from types import MappingProxyType
 from typing import TypeVar
@@ -295,8 +296,9 @@ class AnimationEngine(DefaultEngine):
         """Return all layers: rest posture, idle animation, persistent poses, fading and playing motions, feet."""
         self._history.start_frame(tick.time)
         self._fade_outs = [fade_out for fade_out in self._fade_outs if not fade_out.finished(tick.time)]
+        playing = self._playing()
         walking: tuple[Layer, ...] = self._isolated(
-            "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time), self._rest.body), ()
+            "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time, playing), self._rest.body), ()
         )
         standing = standing_degree(self._walk.stiffness - self._humanoid.body.root[1])
         layers = (
@@ -308,7 +310,7 @@ class AnimationEngine(DefaultEngine):
             *self._stacked(tick.time),
         )
         follow: tuple[Layer, ...] = self._isolated(
-            "trunk following", lambda: self._followed(tick.time, layers, standing), ()
+            "trunk following", lambda: self._followed(tick.time, playing, layers, standing), ()
         )
         posed = (*layers, *follow)
         feet: tuple[Layer, ...] = self._isolated(
@@ -323,10 +325,11 @@ class AnimationEngine(DefaultEngine):
                 self._humanoid.switch(motion.joints, GlobalTime(now + motion.entrance))
         return layers
 
-    def _followed(self, now: GlobalTime, layers: Iterable[Layer], standing: float) -> tuple[Layer, ...]:
+    def _followed(
+        self, now: GlobalTime, playing: Sequence[AnimationUnit], layers: Iterable[Layer], standing: float
+    ) -> tuple[Layer, ...]:
         """Return the layer in which trunk and pelvis follow gesturing and pointing arms."""
-        playing = self._playing()
-        arms = [unit.shown for unit in playing if isinstance(unit.behavior, Gesture | Pointing)]
+        arms = [unit.shown for unit in playing if isinstance(unit.behavior, (Gesture, Pointing)) and unit.live]
         if not arms and self._trunk_following.rests:
             return ()
         directed = any(layer.kind is LayerKind.GAZE and not _HEAD.isdisjoint(layer.rotations) for layer in layers)
@@ -371,9 +374,8 @@ class AnimationEngine(DefaultEngine):
         """Return the moves of the ends of locomotion: the figure arrives earlier or later than expected."""
         return tuple(move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
 
-    def _destination(self, now: GlobalTime) -> Goal | None:
+    def _destination(self, now: GlobalTime, playing: Sequence[AnimationUnit]) -> Goal | None:
         """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""
-        playing = self._playing()
         walks = (unit for unit in playing if isinstance(unit, LocomotionUnit))
         goals = [goal for unit in walks if (goal := unit.goal()) is not None]
         stands = self._rest.posture.stance is StanceType.STANDING and not self._balances(playing)
@@ -438,9 +440,11 @@ class AnimationEngine(DefaultEngine):
     def _gazes(self) -> Iterator[GazeGoal]:
         """Yield the active gaze goals: persistent ones, then playing ones, the latest last."""
         lasting = (motion.gaze(1.0) for motion in self._persistent.motions)
-        looking = [unit for unit in self._playing() if unit.motion.gaze(unit.phase) is not None]
-        playing = (unit.motion.gaze(unit.phase) for unit in sorted(looking, key=height))
-        return (gaze for gaze in (*lasting, *playing) if gaze is not None)
+        playing = [
+            (height(unit), gaze) for unit in self._playing() if (gaze := unit.motion.gaze(unit.phase)) is not None
+        ]
+        yield from (gaze for gaze in lasting if gaze is not None)
+        yield from (gaze for _, gaze in sorted(playing, key=itemgetter(0)))
 
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
         self._note_gaze_change(unit, time)
