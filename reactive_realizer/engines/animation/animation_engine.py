@@ -151,6 +151,8 @@ class AnimationEngine(DefaultEngine):
         self._walk = Walk(context.humanoid)
         self._waiting_arms = WaitingArms(self._release)
         self._trunk_following = TrunkFollowing(context.humanoid.avatar.skeleton)
+        # The controllers that act in the present frame.
+        self._acting: dict[AnimationUnit, PhysicalController] = {}
         self._step_turns = StepTurns()
         self._persistent = PersistentPoses()
         self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
@@ -297,6 +299,7 @@ class AnimationEngine(DefaultEngine):
         self._history.start_frame(tick.time)
         self._fade_outs = [fade_out for fade_out in self._fade_outs if not fade_out.finished(tick.time)]
         playing = self._playing()
+        self._acting = self._controlling(playing)
         walking: tuple[Layer, ...] = self._isolated(
             "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time, playing), self._rest.body), ()
         )
@@ -333,7 +336,7 @@ class AnimationEngine(DefaultEngine):
         if not arms and self._trunk_following.rests:
             return ()
         directed = any(layer.kind is LayerKind.GAZE and not _HEAD.isdisjoint(layer.rotations) for layer in layers)
-        steps = 0.0 if self._balances(playing) else standing
+        steps = 0.0 if self._balances() else standing
         return self._trunk_following.layers(now, arms, self._humanoid.body, directed=directed, standing=steps)
 
     def _breath(self, now: GlobalTime, standing: float) -> tuple[Layer, ...]:
@@ -378,15 +381,15 @@ class AnimationEngine(DefaultEngine):
         """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""
         walks = (unit for unit in playing if isinstance(unit, LocomotionUnit))
         goals = [goal for unit in walks if (goal := unit.goal()) is not None]
-        stands = self._rest.posture.stance is StanceType.STANDING and not self._balances(playing)
+        stands = self._rest.posture.stance is StanceType.STANDING and not self._balances()
         if goals or not stands or any(Resource.STANCE in unit.resources for unit in playing):
             self._step_turns.forget()
             return goals[-1] if goals else None
         return self._step_turns.goal(now, self._humanoid.place, lambda: self.player.stacked(AnimationUnit))
 
-    def _balances(self, playing: Sequence[AnimationUnit]) -> bool:
-        """Return whether a controller moves the root."""
-        return any(ROOT in controller.joints for controller in self._controlling(playing).values())
+    def _balances(self) -> bool:
+        """Return whether a controller moves the root in this frame."""
+        return any(ROOT in controller.joints for controller in self._acting.values())
 
     def _walks(self) -> list[LocomotionUnit]:
         """Return the locomotion that plays."""
@@ -395,10 +398,9 @@ class AnimationEngine(DefaultEngine):
     def dynamics(self, tick: Tick) -> Dynamics | None:
         """Return the movement of the joints that controllers move and no motion turns (thesis 8.7.5)."""
         claimed: frozenset[str] = frozenset()
-        playing = self._playing()
-        controllers = list(self._controlling(playing).values())
+        controllers = [controller for unit, controller in self._acting.items() if unit.live]
         if controllers or self._physical_figure.active:
-            claimed = claimed.union(*(u.shown.rotations for u in playing if u.motion.kind in _CLAIMING))
+            claimed = claimed.union(*(u.shown.rotations for u in self._playing() if u.motion.kind in _CLAIMING))
         return self._physical_figure.dynamics(controllers, claimed)
 
     @staticmethod

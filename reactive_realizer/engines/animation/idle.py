@@ -11,7 +11,14 @@ from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, from_
 from reactive_realizer.embodiment.vector import scale
 from reactive_realizer.engines.animation.blinks import USUAL_RATE, Blinks
 from reactive_realizer.engines.animation.idle_course import IdleCourse
-from reactive_realizer.engines.animation.idle_movements import USUAL_BREATHING, Breath, Glances, WeightShift, leaning
+from reactive_realizer.engines.animation.idle_movements import (
+    USUAL_BREATHING,
+    Breath,
+    Glances,
+    Leaning,
+    WeightShift,
+    leaning,
+)
 from reactive_realizer.engines.animation.idle_waves import Fixation, Looseness
 
 _WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
@@ -48,6 +55,7 @@ class Idle:
         blinking = Random(random.getrandbits(64))
         self._blinks = Blinks(blinking, self._blink_rate)
         self._shift = WeightShift(Random(random.getrandbits(64)))
+        self._leant: tuple[float, Leaning] | None = None
         self._glances = Glances(Random(random.getrandbits(64)))
         self._looseness = Looseness(Random(random.getrandbits(64)))
         self._fixation = Fixation(Random(random.getrandbits(64)))
@@ -69,12 +77,17 @@ class Idle:
             time: s.
             standing: degree to which the figure may shift its weight, 0 to 1.
         """
-        turns, root = leaning(self._degree * self._shift.at(time) * standing)
+        turns, root = self._leaning(self._degree * self._shift.at(time) * standing)
         rotations = {**turns, **self.rotations(time)}
         for joint, turn in turns.items():
             if rotations[joint] is not turn:
                 rotations[joint] = multiply(turn, rotations[joint])
         return Layer(LayerKind.ADDITIVE, rotations, root=root)
+
+    def _leaning(self, side: float) -> Leaning:
+        if self._leant is None or self._leant[0] != side:  # a figure stays on its side between weight shifts
+            self._leant = side, leaning(side)
+        return self._leant[1]
 
     def rotations(self, time: float) -> dict[str, Quat]:
         """Return breathing, sway and looseness: the chest rises, and no part of the body is ever quite still."""

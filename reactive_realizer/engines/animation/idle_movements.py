@@ -4,7 +4,6 @@ import math
 from bisect import bisect_right
 from collections import deque
 from collections.abc import Callable, Mapping
-from functools import lru_cache
 from operator import attrgetter
 from random import Random
 from typing import Generic, NamedTuple, TypeVar
@@ -146,12 +145,11 @@ def standing_degree(sunk: float) -> float:
     return max(0.0, 1.0 - max(0.0, sunk) / _SUNK)
 
 
-_MOST_SIDES = 1000
-"""Number of cached values: a figure keeps its side from one weight shift to the next."""
+Leaning = tuple[Mapping[str, Quat], Vec3]
+"""Turns of pelvis, trunk and neck, and the displacement of the pelvis, m."""
 
 
-@lru_cache(_MOST_SIDES)
-def leaning(side: float) -> tuple[Mapping[str, Quat], Vec3]:
+def leaning(side: float) -> Leaning:
     """Return the turns of pelvis, trunk and neck, and the displacement of the pelvis, m.
 
     Args:

@@ -104,10 +104,10 @@ def _one_arm(skeleton: Skeleton, rotations: Mapping[str, Quat], side: str) -> Fo
 def _way(skeleton: Skeleton, rotations: Mapping[str, Quat], side: str) -> Vec3:
     """Return the way of a wrist from where it hangs, in the axes of the trunk and in lengths of its arm."""
     arm = _hanging(skeleton, side)
-    elbow = rotations.get(f"{side}_elbow", IDENTITY)
-    hand = rotate(rotations[f"{side}_shoulder"], add(arm.upper, rotate(elbow, arm.lower)))
-    if (girdle := rotations.get(girdle_of(side))) is not None:
-        hand = rotate(girdle, hand)
+    girdle, shoulder, elbow = arm.joints
+    hand = rotate(rotations[shoulder], add(arm.upper, rotate(rotations.get(elbow, IDENTITY), arm.lower)))
+    if girdle in rotations:
+        hand = rotate(rotations[girdle], hand)
     return scale(subtract(hand, arm.wrist), 1.0 / arm.length)
 
 
@@ -115,12 +115,14 @@ class _Hanging(NamedTuple):
     """An arm that hangs.
 
     Attributes:
+        joints: girdle, shoulder and elbow.
         upper: from shoulder to elbow, m.
         lower: from elbow to wrist, m.
         wrist: from the shoulder, m.
         length: of both bones, m.
     """
 
+    joints: tuple[str, str, str]
     upper: Vec3
     lower: Vec3
     wrist: Vec3
@@ -129,8 +131,8 @@ class _Hanging(NamedTuple):
 
 @lru_cache
 def _hanging(skeleton: Skeleton, side: str) -> _Hanging:
-    arm = Arm.of(skeleton, side)
-    return _Hanging(arm.upper, arm.lower, add(arm.upper, arm.lower), length(arm.upper) + length(arm.lower))
+    arm, joints = Arm.of(skeleton, side), (girdle_of(side), f"{side}_shoulder", f"{side}_elbow")
+    return _Hanging(joints, arm.upper, arm.lower, add(arm.upper, arm.lower), length(arm.upper) + length(arm.lower))
 
 
 class TrunkFollowing:
@@ -143,7 +145,7 @@ class TrunkFollowing:
         self._skeleton = skeleton
         parts = {joint: part for joint, part in _PARTS.items() if joint in skeleton}
         self._parts = [(joint, part / sum(parts.values())) for joint, part in parts.items()]
-        self._neck = next(joint for joint in HEAD if joint in skeleton)
+        *self._below, self._neck = skeleton.chain(next(joint for joint in HEAD if joint in skeleton))
         self._time = GlobalTime(0.0)
         self._at, self._speed = _UPRIGHT, _UPRIGHT
 
@@ -175,6 +177,8 @@ class TrunkFollowing:
 
     def _goal(self, arms: Iterable[Layer]) -> Following:
         wanted = [following(self._skeleton, arm.rotations, arm.weight) for arm in arms if _carried(arm)]
+        if len(wanted) == 1:
+            return wanted[0]
         return Following(*map(sum, zip(*wanted, strict=True))) if wanted else _UPRIGHT
 
     def _follow(self, goal: Following, passed: float) -> None:
@@ -208,13 +212,13 @@ class TrunkFollowing:
     def _kept(self, turns: Mapping[str, Quat], body: Body) -> dict[str, Quat]:
         """Return the turn of the neck with which the head keeps its direction while the trunk turns."""
         steady = turned = IDENTITY
-        *below, neck = body.skeleton.chain(self._neck)
-        for joint in below:
+        for joint in self._below:
             held = body.rotation(joint)
-            steady = multiply(steady, held)
-            turned = multiply(multiply(turned, held), turns.get(joint, IDENTITY))
-        held = body.rotation(neck)
-        return {neck: multiply(conjugate(multiply(turned, held)), multiply(steady, held))}
+            steady, turned = multiply(steady, held), multiply(turned, held)
+            if joint in turns:
+                turned = multiply(turned, turns[joint])
+        held = body.rotation(self._neck)
+        return {self._neck: multiply(conjugate(multiply(turned, held)), multiply(steady, held))}
 
 
 def _carried(arm: Layer) -> bool:

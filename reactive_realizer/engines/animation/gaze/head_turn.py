@@ -170,8 +170,8 @@ class _Ahead(NamedTuple):
     def of(cls, body: Body, rest: JointRotations, weights: Mapping[str, float]) -> Self:
         """Return the head of a body; see `HeadTurner`."""
         parts = {joint: part for joint, part in joint_weights(weights).items() if joint in body.skeleton}
-        chain = body.skeleton.links("skullbase")
-        rotations = {joint: rest.get(joint, IDENTITY) if joint in parts else body.rotation(joint) for joint, _ in chain}
+        chain, pose = body.skeleton.links("skullbase"), body.pose
+        rotations = {joint: (rest if joint in parts else pose).get(joint, IDENTITY) for joint, _ in chain}
         return cls(rotations, body.root, parts, weights.get(EYE_WEIGHT, 0.0))
 
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 from functools import reduce
 from typing import NamedTuple
 
@@ -153,7 +152,8 @@ def _over(below: _LegState, layer: Layer) -> _LegState:
 
 def _legs_of(layer: Layer) -> Layer:
     """Return the part of a layer for pelvis and legs."""
-    return replace(layer, rotations=_moving(layer))
+    # Without `replace`, which takes longer: some are made in each frame in which a pelvis moves.
+    return Layer(layer.kind, _moving(layer), layer.weight, layer.priority, layer.root, layer.weights)
 
 
 def _lacking(body: Body, side: str, foot: Transform) -> float:
