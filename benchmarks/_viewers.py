@@ -10,6 +10,7 @@ from urllib.request import urlopen
 from yarl import URL
 
 from benchmarks._served import served
+from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE
 
 _BINARY, _PING = 0x82, 0x89
@@ -37,7 +38,7 @@ def measure(viewers: int, seconds: float, characters: int = 1) -> dict[str, floa
         limits = f"clients = {viewers}\nconnections = {viewers + 10}\n"
         cast = "".join(f"[character.c{n}]\nposition = [{n}, 0, 0]\n" for n in range(characters))
         human.write_text(f"{cast}[limits]\n{limits}", encoding="utf-8")
-        return asyncio.run(_measure(human, viewers, seconds))
+        return run_punctually(_measure(human, viewers, seconds))
 
 
 async def _measure(human: Path, viewers: int, seconds: float) -> dict[str, float]:

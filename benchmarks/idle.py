@@ -9,6 +9,7 @@ from time import process_time
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.engine.effects import Play
 from reactive_realizer.engine.engine_task import EngineTask
@@ -49,7 +50,7 @@ def _wait(size: int, seconds: float) -> tuple[float, float]:
     with TemporaryDirectory() as folder:
         human = Path(folder, "crowd.toml")
         human.write_text("".join(map(_CHARACTER.format, range(max(1, size)))), encoding="utf-8")
-        return asyncio.run(_measure(human, size, seconds))
+        return run_punctually(_measure(human, size, seconds))
 
 
 async def _measure(human: Path, size: int, seconds: float) -> tuple[float, float]:

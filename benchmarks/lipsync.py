@@ -22,6 +22,7 @@ from playwright.async_api import async_playwright
 from benchmarks._jitter import jittery
 from benchmarks._served import served
 from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
@@ -133,7 +134,7 @@ def _measured(seconds: float, jitter: float, browser: str) -> dict[str, object]:
     with TemporaryDirectory() as folder:
         human = Path(folder, "human.toml")
         human.write_text(f'[character.alice]\navatar = "{_AVATAR}"\nvoice = "{_VOICE}"\n', encoding="utf-8")
-        recording = asyncio.run(_recorded(human, seconds, jitter, browser, morphs, utterances))
+        recording = run_punctually(_recorded(human, seconds, jitter, browser, morphs, utterances))
     tracks = [_weights(LipSyncTrack(each, binding), each.duration, morphs) for each in utterances]
     return _figures(recording, [each.duration for each in utterances], tracks)
 

@@ -10,6 +10,7 @@ from benchmarks import _viewers
 from benchmarks.scheduling import chain, spread
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.clock.ticker import RATE, tick_time
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
@@ -44,7 +45,7 @@ def measure(seconds: float = 4.0, behaviors: int = 1000, viewers: int = 500) -> 
         behaviors: their number in a load.
         viewers: most sockets that receive frames from a server; without 500, only ``viewers_200`` has a result.
     """
-    ticks = {name: asyncio.run(_ticks(load, behaviors, seconds)) for name, load in _LOADS.items()}
+    ticks = {name: run_punctually(_ticks(load, behaviors, seconds)) for name, load in _LOADS.items()}
     watched = {
         name: _viewers.measure(min(number, viewers), 2.5 * seconds, characters)
         if viewers >= least

@@ -14,6 +14,7 @@ from time import perf_counter
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.clock.ticker import Ticker
 from reactive_realizer.embodiment.audio import AudioChange, AudioMove, AudioStart
 from reactive_realizer.engines.speech.piper.voice import PLACE
@@ -57,7 +58,7 @@ def measure(runs: int = 3, texts: Mapping[str, str] = _TEXTS) -> dict[str, objec
     """
     lags: list[float] = []
     voices = (*_VOICES, "piper") if PLACE in os.environ else _VOICES
-    measured = {voice: asyncio.run(_measure(voice, texts, _HOURS[:runs], lags)) for voice in voices}
+    measured = {voice: run_punctually(_measure(voice, texts, _HOURS[:runs], lags)) for voice in voices}
     return {**measured, "loop_lag_p99_ms": round(1000 * quantiles(lags, n=100)[98], 2)}
 
 

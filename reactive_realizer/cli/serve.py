@@ -1,7 +1,6 @@
 """The command ``serve``: serves a scene to browsers and planners."""
 
 import argparse
-import asyncio
 import logging
 import os
 import sys
@@ -10,6 +9,7 @@ from math import inf
 from pathlib import Path
 
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
+from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.server.serve import ServerOptions, serve
 
 _TOKEN = "REACTIVE_REALIZER_TOKEN"
@@ -75,7 +75,7 @@ def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
         return 2
     logging.getLogger().setLevel(logging.INFO)
     try:
-        asyncio.run(serve(_server_options(options)))
+        run_punctually(serve(_server_options(options)))
     except OSError as problem:
         print(problem, file=sys.stderr)
         return 2
