@@ -57,6 +57,7 @@ from reactive_realizer.engines.animation.faults import NoIdle
 from reactive_realizer.engines.animation.gaze.eye_controller import EyeController
 from reactive_realizer.engines.animation.gaze.eyes import lid_weights
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
+from reactive_realizer.engines.animation.gaze.viewer import VIEWER
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
 from reactive_realizer.engines.animation.idle_movements import standing_degree
@@ -419,7 +420,9 @@ class AnimationEngine(DefaultEngine):
 
     def _look(self, now: GlobalTime, gazes: Sequence[GazeGoal], body: Body) -> EyePose:
         resting: Mapping[str, Quat] = self._idle_part(lambda idle: idle.eyes(now), {})
-        turns = self._isolated("gaze", lambda: self._eye_controller.eyes(now, gazes, body, resting), resting)
+        camera = self._world.position(VIEWER) if self._idle else None
+        viewer = None if camera is None else self._humanoid.to_own_frame(camera)
+        turns = self._isolated("gaze", lambda: self._eye_controller.eyes(now, gazes, body, resting, viewer), resting)
         blinks: Mapping[str, float] = self._idle_part(lambda idle: idle.blinks(now), {})
         return EyePose(turns, lid_weights(turns), blinks)
 

@@ -1,4 +1,4 @@
-"""A figure that is watched."""
+"""A figure whose frames are kept; nobody views it, so its eyes look ahead without a gaze."""
 
 from collections.abc import AsyncIterator
 
@@ -11,6 +11,7 @@ from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 @pytest.fixture
 async def pilot() -> AsyncIterator[RealizerPilot]:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.move("camera", None)
         pilot.watch()
         await pilot.advance(0.1)
         yield pilot

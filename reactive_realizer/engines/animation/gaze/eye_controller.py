@@ -9,6 +9,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, between, multiply, rotate
 from reactive_realizer.embodiment.vector import FORWARD, Vec3
 from reactive_realizer.engines.animation.gaze.eyes import EyeSockets, direction_between, listing, turned
+from reactive_realizer.engines.animation.gaze.viewer import toward_viewer
 from reactive_realizer.engines.animation.motion_unit import GazeGoal
 
 PEAK_VELOCITY = 8.7
@@ -91,7 +92,12 @@ class EyeController:
         self._changed = max(self._changed, time)
 
     def eyes(
-        self, now: GlobalTime, gazes: Sequence[GazeGoal], body: Body, resting: Mapping[str, Quat]
+        self,
+        now: GlobalTime,
+        gazes: Sequence[GazeGoal],
+        body: Body,
+        resting: Mapping[str, Quat],
+        viewer: Vec3 | None = None,
     ) -> Mapping[str, Quat]:
         """Return the rotations of the eyes in a frame.
 
@@ -100,9 +106,14 @@ class EyeController:
             gazes: active gaze goals; the last one has priority.
             body: with the head as shown, and the eyes as other motions turn them.
             resting: additional rotations of the eyes when there is nothing to look at.
+            viewer: whom they look at then, in the figure's frame, m; None if there is nobody.
         """
         sockets = EyeSockets.of(body)
         resting = {eye: multiply(body.rotation(eye), resting.get(eye, IDENTITY)) for eye in sockets.places}
+        if viewer is not None:
+            places = sockets.places
+            views = {eye: toward_viewer(sockets.rotation, place, viewer) for eye, place in places.items()}
+            resting = {eye: multiply(views[eye], turn) for eye, turn in resting.items()}
         points = {gaze: gaze.point(sockets.middle) for gaze in gazes if gaze.eyes > 0.0}
         goal = {eye: _eye_direction(eye, sockets, points, resting) for eye in sockets.places}
         if not self._goal:  # before the first frame, the eyes rest
