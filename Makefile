@@ -14,8 +14,9 @@ MEASURED := $(addprefix tests/,bml pegboard planunit reactive realizer scheduler
 COVERAGE := 95
 
 # One process more than there are processors, because tests of the server, the page and voices often wait. Without
-# bytecode, every process would rewrite the assertions of all tests again.
-PYTEST := env -u PYTHONDONTWRITEBYTECODE $(BIN)/pytest --numprocesses $(shell expr $$(getconf _NPROCESSORS_ONLN) + 1) --dist worksteal
+# bytecode, every process would rewrite the assertions of all tests again. Products of matrices have no threads of their
+# own, which would only spin while the other processes work.
+PYTEST := env -u PYTHONDONTWRITEBYTECODE OPENBLAS_NUM_THREADS=1 $(BIN)/pytest --numprocesses $(shell expr $$(getconf _NPROCESSORS_ONLN) + 1) --dist worksteal
 
 # If Node is missing or old, a recent one is installed into .venv/bin; otherwise, the one on the PATH is used.
 NPM := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix web

@@ -37,8 +37,8 @@ def started() -> Iterator[tuple[KokoroVoice, asyncio.Runner]]:
 
 @pytest.mark.kokoro
 class TestKokoroVoice(TTSContract):
-    texts: ClassVar = ("Yes", "In '84, bob@x.org paid $5!", "\u041f\u0440\u0438\u0432\u0435\u0442. \u6f22 \U0001f600")
-    long_text: ClassVar = "hello world " * 5
+    texts: ClassVar = ("Yes", "In '84, b@x.org paid $5!", "\u041f\u0440\u0438\u0432\u0435\u0442. \u6f22 \U0001f600")
+    long_text: ClassVar = "hello world " * 3
 
     def tts(self) -> TTSBinding:
         return KokoroVoice()

@@ -113,10 +113,10 @@ class FaceMesh:
         """Points (N, 3), m, of the upper teeth that the lower lip can touch; no morph target moves them."""
         assert not self.upper_teeth.targets.any()
         corners = self.upper_teeth.positions[self.upper_teeth.triangles]
-        front = corners[(np.abs(corners[:, :, 0]) < 1.5 * _MARGIN).all(1)]
+        front = corners[(np.abs(corners[:, :, 0]) < 1.1 * _MARGIN).all(1)]
         shares = [(i / 4, j / 4, (4 - i - j) / 4) for i in range(5) for j in range(5 - i)]
-        points: Array = np.einsum("kb,mbc->mkc", np.array(shares), front).reshape(-1, 3)
-        return points
+        points = np.einsum("kb,mbc->mkc", np.array(shares), front).reshape(-1, 3)
+        return np.unique(points.round(6), axis=0)  # triangles share their edges
 
 
 def _largest_gap(triangles: Array, columns: Array) -> float:
