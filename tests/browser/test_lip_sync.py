@@ -1,4 +1,8 @@
-"""The mouth in the page moves with the sound, also when the socket has jitter (`python -m benchmarks lipsync`)."""
+"""The mouth in the page moves with the sound, also when the socket has jitter.
+
+The machine of a test may be busy with others, so most differences are compared here, and the largest ones, and the
+drift, by `python -m benchmarks lipsync`.
+"""
 
 import asyncio
 import importlib

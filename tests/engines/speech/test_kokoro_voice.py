@@ -186,6 +186,24 @@ def test_a_style_of_another_size_is_refused(tmp_path: Path, size: int) -> None:
         read_styles([tmp_path])
 
 
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+def test_a_style_with_a_number_that_is_none_is_refused(tmp_path: Path, number: float) -> None:
+    np.full((510, 256), number, np.float32).tofile(tmp_path / "af_mine.bin")
+    with pytest.raises(UnusableNetwork, match="af_mine"):
+        read_styles([tmp_path])
+
+
+def test_a_folder_of_the_user_that_does_not_exist_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UnusableNetwork, match="nowhere is not a folder"):
+        read_styles([STYLES, tmp_path / "nowhere"])
+
+
+def test_a_package_without_its_weights_is_named_as_incomplete(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(resources, "files", lambda _: tmp_path)
+    with pytest.raises(UnusableNetwork, match="incomplete; install them again"):
+        KokoroModel(None, {})
+
+
 def test_a_file_of_the_user_that_is_no_network_and_altered_packages_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

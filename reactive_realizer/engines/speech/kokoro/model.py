@@ -88,15 +88,18 @@ def read_styles(folders: Sequence[Path]) -> dict[str, Style]:
     """The styles in folders by the names of their files; those of later folders take precedence.
 
     Raises:
-        UnusableNetwork: a file does not have the size of a style.
+        UnusableNetwork: there is no such folder, or a file is not a style.
     """
+    if missing := [folder for folder in folders if not folder.is_dir()]:
+        raise UnusableNetwork(f"{missing[0]} is not a folder")
     files = sorted(file for folder in folders for file in folder.glob("*.bin"))
     return {file.stem: _read_style(file) for file in files}
 
 
 def _read_style(file: Path) -> Style:
     numbers = np.fromfile(file, np.float32)
-    if numbers.size != math.prod(_STYLE_SHAPE) or file.stat().st_size != numbers.nbytes:
+    fits = numbers.size == math.prod(_STYLE_SHAPE) and file.stat().st_size == numbers.nbytes
+    if not fits or not np.isfinite(numbers).all():
         raise UnusableNetwork(f"{file.name} is not a style of 510 x 256 floats")
     return numbers.reshape(_STYLE_SHAPE)
 
@@ -107,7 +110,10 @@ def _own_weights(folder: Path | None) -> bytes | None:
 
 
 def _packaged_weights() -> bytes:
-    weights = b"".join((resources.files(part) / "part.bin").read_bytes() for part in _PARTS)
+    try:
+        weights = b"".join((resources.files(part) / "part.bin").read_bytes() for part in _PARTS)
+    except FileNotFoundError as missing:
+        raise UnusableNetwork("a package with its weights is incomplete; install them again") from missing
     if hashlib.sha256(weights).hexdigest() != _SHA256:
         raise UnusableNetwork("the packages with its weights were altered; install them again")
     return weights
