@@ -21,9 +21,10 @@ from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
 from reactive_realizer.server.protocol import VERSION, Message
 
-_YOUNG, _OLDER = 5_000, 1_000
-"""Number of new objects that trigger a collection of these, which takes 1 ms; and number of these collections after
-which what they left is searched too, which takes longer the more is alive."""
+_YOUNG, _OLDER = 20_000, 1_000
+"""Number of new objects that trigger a collection of these, which takes some milliseconds: a frame of 100 characters in
+the making has half as many. And number of these collections after which what they left is searched too, which takes
+longer the more is alive."""
 
 
 _SWITCH = 0.0005
