@@ -264,6 +264,8 @@ class PlanUnit:
     @property
     def last_known(self) -> SyncPoint:
         """Its end or, while it persists, the last point whose time can be known."""
+        if not self.timing.persistent:
+            return self.points[-1]
         return next(point for point in reversed(self.points) if not self._open(point))
 
     @property

@@ -231,7 +231,7 @@ class AnimationEngine(DefaultEngine):
         self._drafts.clear()
         self._interrupted_bodies.clear()
         if isinstance(unit, AnimationUnit):
-            self._notes += (Warn(unit, note) for note in unit.notes)
+            self._notes += [Warn(unit, note) for note in unit.notes]
         super().add(unit)
 
     def _expected(self) -> BodyPosture:
