@@ -56,6 +56,7 @@ async def test_a_reader_that_does_not_read_is_disconnected(on_air: Open) -> None
         async with air.client.get("/feedback") as slow:
             while len(air.live.feedback.subscribers) == 2:
                 air.live.feedback.append(report("x" * 100_000))
+                await air.tick()
                 await quick.hear("feedback")
             assert slow.status == 200
         assert (await quick.ask(type="clock"))["type"] == "accepted"
