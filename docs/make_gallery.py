@@ -18,12 +18,11 @@ from tempfile import TemporaryDirectory
 
 from aiohttp import web
 from gallery_entries import Entry, entries
-from PIL import Image, ImageChops, ImageOps
+from PIL import Image, ImageChops
 from playwright.async_api import Page, ViewportSize, async_playwright
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
-from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.realizer.inputs import BmlText, Push
@@ -33,16 +32,11 @@ from reactive_realizer.server.security import Security
 
 GALLERY = Path(__file__).parent / "gallery"
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
-WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
-"""Without this flag, a button that enables sound would be in the picture."""
-WIDE: ViewportSize = {"width": 1000, "height": 560}
-HIGH: ViewportSize = {"width": 1000, "height": 1200}
-"""A high window shows legs and feet."""
-NEAR: ViewportSize = {"width": 1000, "height": 600}
-"""A window in which the camera comes near to a mouth."""
-MOUTH = {"female": 0.183, "male": 0.21}
-"""Distance of the mouth from the crown in the picture of a face, m."""
+MOUTH = {"female": 0.56, "male": 0.62}
+"""Height of the mouth in the picture of a face, as a share of it from above."""
 MOMENTS = 7
+FRAME = 0.02
+"""Time between two frames, s."""
 PUSH_AFTER = 1.0
 """Time from the start of a strip to the push, s."""
 LONGEST = 20.0
@@ -67,80 +61,63 @@ _NOTICEABLE = 24
 """Smallest difference of a pixel that counts, of 255: software renderers differ by less."""
 
 
-class Studio(LiveScene):
-    """A scene that reports a later time than that of its frames, so that the page shows each frame at once.
-
-    Attributes:
-        newest: time of the last frame.
-    """
-
-    newest = GlobalTime(0.0)
-
-    @property
-    def now(self) -> GlobalTime:
-        """A time after that of all frames."""
-        return GlobalTime(super().now + 3600.0)
-
-    async def step(self, tick: Tick) -> None:
-        """Plays a tick, and records the time of its frame."""
-        await super().step(tick)
-        if tick.frame:
-            self.newest = tick.time
-
-
 @dataclass(frozen=True, slots=True)
 class Framing:
-    """The window, the size and the crop of a picture.
+    """What a picture shows.
 
     Attributes:
-        window: of the browser.
+        shot: of the film (`web/src/framing.ts`).
         size: of a picture, pixels.
-        rows: top and bottom of the part of the canvas around its middle column, pixels; None for all.
+        zoom: how many times as large the window is.
+        middle: height of the middle of the picture in the window, as a share of it from above.
     """
 
-    window: ViewportSize
+    shot: str
     size: tuple[int, int]
-    rows: tuple[int, int] | None = None
+    zoom: float = 1.0
+    middle: float = 0.5
 
     @classmethod
     def of(cls, entry: Entry) -> "Framing":
         """That of an entry."""
         if entry.mouth:
-            return cls(NEAR, (150, 120), (140, 460))
+            return cls("face", (150, 120), 4.4, MOUTH[entry.avatar])
         if entry.face:
-            return cls(WIDE, (150, 180), (45, 430))
-        return cls(HIGH, (150, 300)) if entry.whole_body else cls(WIDE, (180, 240))
+            return cls("face", (165, 180), 1.35, 0.47)
+        return cls("full", (260, 300)) if entry.whole_body else cls("upper", (300, 240))
 
-    def picture(self, canvas: Image.Image) -> Image.Image:
-        """The picture in a screenshot."""
-        if self.rows is not None:
-            canvas = canvas.crop((0, self.rows[0], canvas.width, self.rows[1]))
-        return ImageOps.fit(canvas, self.size)
+    @property
+    def window(self) -> ViewportSize:
+        """The size of the window."""
+        width, height = self.size
+        return {"width": round(self.zoom * width), "height": round(self.zoom * height)}
+
+    def picture(self, whole: Image.Image) -> Image.Image:
+        """The picture in a screenshot of the window."""
+        width, height = self.size
+        left, top = (whole.width - width) // 2, round(self.middle * whole.height - height / 2)
+        return whole.crop((left, top, left + width, top + height))
 
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """Takes pictures of one character in the viewer.
+    """Takes pictures of a scene in the page.
 
     Attributes:
         live: the scene.
-        page: of the viewer, in a browser.
+        page: in a browser, as a film.
         framing: of a picture.
     """
 
-    live: Studio
+    live: LiveScene
     page: Page
     framing: Framing
 
-    async def picture(self) -> Image.Image:
-        """A screenshot of the newest frame."""
-        newest = self.live.newest - 1e-6
-        shown = "([time, id]) => viewer.lastFrameTime >= time && viewer.morph(id, 'jawOpen') !== null"
-        await self.page.wait_for_function(shown, arg=[newest, next(iter(self.live.realizer.characters))])
-        await self.page.wait_for_timeout(120)  # low quality draws 12 times a second
-        only_canvas = "#viewport > :not(canvas) { visibility: hidden; }"
-        shot = Image.open(io.BytesIO(await self.page.locator("#viewport canvas").screenshot(style=only_canvas)))
-        return self.framing.picture(shot.convert("RGB"))
+    async def picture(self, time: float) -> Image.Image:
+        """A picture of a time, s, whose frame has been sent."""
+        await self.page.evaluate("time => film.show(time)", time)
+        shot = await self.page.screenshot(style="#captions { visibility: hidden; }")
+        return self.framing.picture(Image.open(io.BytesIO(shot)).convert("RGB"))
 
 
 async def strip(camera: Camera, entry: Entry) -> Image.Image:
@@ -155,16 +132,12 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
     if entry.push is not None:
         push = Push(next(iter(live.realizer.characters)), "vl5", entry.push, 0.2)
         live.realizer.put(push, GlobalTime(begun + PUSH_AFTER))
-    await camera.page.wait_for_function("viewer.morph('alice', 'jawOpen') !== null")
-    await camera.page.click("#shot-face" if entry.face or entry.mouth else "#shot-upper")
-    if entry.mouth:
-        await approach_mouth(camera.page, entry.avatar)
     pictures = []
     for i in range(MOMENTS):
         moment = begun + (end - begun) * (i + 0.5) / MOMENTS
-        while live.realizer.time < moment:
+        while live.realizer.time < moment + FRAME:
             await live.step(await anext(ticks))
-        pictures.append(await camera.picture())
+        pictures.append(await camera.picture(moment))
     width, height = camera.framing.size
     whole = Image.new("RGB", (width * MOMENTS, height))
     for i, picture in enumerate(pictures):
@@ -190,33 +163,17 @@ def with_avatar(options: SceneOptions, avatar: str) -> Iterator[SceneOptions]:
         yield replace(options, human=human)
 
 
-async def approach_mouth(page: Page, avatar: str) -> None:
-    """Moves the camera from a face near to its mouth, as a user does: by dragging and with the wheel."""
-    box = await page.locator("#viewport canvas").bounding_box()
-    assert box is not None
-    up = (0.16 - MOUTH[avatar]) / 0.42 * box["height"]  # the middle of the shot and its height (web/src/framing.ts)
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    await page.mouse.move(x, y)
-    await page.mouse.down(button="right")
-    await page.mouse.move(x, y + up, steps=4)
-    await page.mouse.up(button="right")
-    await page.mouse.move(x, y)
-    for _ in range(30):
-        await page.mouse.wheel(0, -100)
-    await page.wait_for_timeout(2000)  # the camera coasts
-
-
 @asynccontextmanager
 async def studio(options: SceneOptions, page: Page, framing: Framing) -> AsyncIterator[Camera]:
     """Opens a new scene in the viewer."""
     async with open_scene(options) as scene:
-        live = Studio(scene, ManualClock())
+        live = LiveScene(scene, ManualClock())
         runner = web.AppRunner(create_app(live, Security()), shutdown_timeout=1)
         await runner.setup()
         await web.TCPSite(runner, "127.0.0.1", 0).start()
         host, port = runner.addresses[0]
-        await page.goto(f"http://{host}:{port}/?quality=low")
-        await page.wait_for_function("window.viewer && viewer.connected")
+        await page.goto(f"http://{host}:{port}/?film={framing.shot}")
+        await page.wait_for_function("window.film && film.connected")
         try:
             yield Camera(live, page, framing)
         finally:
@@ -228,7 +185,7 @@ async def make(wanted: Sequence[Entry], options: SceneOptions, folder: Path, bro
     """Make strips in a folder, or compare with the existing ones; the number of those that differ."""
     differing = 0
     async with async_playwright() as playwright:
-        browser = await playwright.chromium.launch(executable_path=browser_file, args=[*FLAGS, WITH_SOUND])
+        browser = await playwright.chromium.launch(executable_path=browser_file, args=FLAGS)
         page = await browser.new_page(bypass_csp=True)
         for entry in wanted:
             framing = Framing.of(entry)

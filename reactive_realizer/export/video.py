@@ -110,7 +110,7 @@ async def _page(live: LiveScene, picture: Picture) -> AsyncIterator["Page"]:
             stack.push_async_callback(browser.close)
             page = await browser.new_page(viewport={"width": width, "height": height})
             await page.goto(f"{address}?film={picture.shot}")
-            await page.wait_for_function("window.film")
+            await page.wait_for_function("window.film && film.connected")
         except Error as problem:
             raise RealizerError(NoVideo(reason=problem.message.splitlines()[0])) from problem
         yield page

@@ -42,6 +42,11 @@ export class Film implements ConnectionListener {
     this.connection.open();
   }
 
+  /** Whether the realizer has greeted: it sends all frames from then on. */
+  get connected(): boolean {
+    return this.connection.connected;
+  }
+
   /**
    * Draws a realizer time, s, as soon as its frame and all avatars are there; times must not go back. Resolves when the
    * picture is on the screen, and rejects if an avatar could not be loaded.

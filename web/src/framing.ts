@@ -28,9 +28,9 @@ export interface View {
 /** A figure that is shown while no character is known. */
 const USUAL: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0] };
 
-/** Space above the head and below what is shown, m: hands are raised above the head. */
+/** Space above the head and below what is shown, m: hands are raised above the head, and feet are set forward. */
 const ABOVE: Record<Shot, number> = { face: 0.05, bust: 0.1, upper: 0.13, full: 0.13 };
-const BELOW = 0.05;
+const BELOW: Record<Shot, number> = { face: 0.05, bust: 0.05, upper: 0.05, full: 0.15 };
 
 /** Space to each side of the characters, m: a gesture reaches farther than a face. */
 const REACH: Record<Shot, number> = { face: 0.16, bust: 0.27, upper: 0.5, full: 0.5 };
@@ -52,7 +52,7 @@ export function framing(shot: Shot, figures: Figure[], aspect: number, fov: numb
   const { min, max } = new Box3().setFromPoints(shown.flatMap((figure) => outline(shot, figure)));
   const top = max.y + ABOVE[shot];
   const width = max.x - min.x + 2 * REACH[shot];
-  const height = Math.max(top - min.y + BELOW, width / aspect);
+  const height = Math.max(top - min.y + BELOW[shot], width / aspect);
   // A narrow window shows more height: it shows more of the legs, and at most as much above the heads as below.
   const target = new Vector3((min.x + max.x) / 2, Math.max(top - height / 2, isNear(shot) ? min.y : top / 2), max.z);
   const distance = height / 2 / Math.tan(MathUtils.degToRad(fov / 2));

@@ -28,7 +28,7 @@ export interface Seat {
 const SLOPES: [number, number] = [50, 25];
 
 /** Slopes of a shin from the vertical, likewise: one that leans forward more is that of somebody who crouches. */
-const LEANS: [number, number] = [38, 25];
+const LEANS: [number, number] = [28, 21];
 
 /** Depth of the seat below the hip joints, and distance of its middle before them, m. */
 const FLESH = 0.088;

@@ -5,7 +5,7 @@ import { type Leg, seatOf, Stool } from "../src/stool";
 
 const STANDING: Leg = { hip: [0.1, 0.9, 0], knee: [0.1, 0.48, 0.02], ankle: [0.1, 0.08, 0] };
 const SITTING: Leg = { hip: [0.1, 0.52, 0], knee: [0.1, 0.5, 0.42], ankle: [0.1, 0.09, 0.4] };
-const CROUCHING: Leg = { hip: [0.1, 0.3, -0.1], knee: [0.1, 0.4, 0.3], ankle: [0.1, 0.09, 0.02] };
+const CROUCHING: Leg = { hip: [0.1, 0.36, -0.15], knee: [0.25, 0.42, 0.2], ankle: [0.15, 0.09, 0.02] };
 const LYING: Leg = { hip: [0.1, 0.12, 0], knee: [0.1, 0.12, 0.42], ankle: [0.1, 0.1, 0.84] };
 
 describe("the stool", () => {
