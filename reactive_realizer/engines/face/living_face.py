@@ -30,7 +30,8 @@ class _Movement(NamedTuple):
 
 
 _MOVEMENTS = (
-    _Movement({"mouthSmileLeft": 1.0, "mouthSmileRight": 0.85}, 0.10, 0.05),
+    # Without mouthClose, a smile bares teeth at the corners of the mouth.
+    _Movement({"mouthSmileLeft": 1.0, "mouthSmileRight": 0.85, "mouthClose": 0.6}, 0.10, 0.05),
     _Movement({"eyeSquintLeft": 1.0, "eyeSquintRight": 1.0}, 0.08, 0.06),
     _Movement({"browInnerUp": 1.0, "browOuterUpLeft": 0.6, "browOuterUpRight": 0.5}, 0.04, 0.04),
 )

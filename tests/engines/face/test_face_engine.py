@@ -83,17 +83,15 @@ async def test_the_mouth_opens_during_speech_and_closes_softly_when_it_is_interr
 
 @pytest.mark.speech
 @pytest.mark.parametrize("cut", [0.3, 0.45, 0.6, 0.75, 0.9, None])
-async def test_the_mouth_is_at_rest_within_150_ms_of_any_end(cut: float | None) -> None:
-    async with open_pilot(SceneOptions()) as pilot:
-        pilot.watch()
-        pilot.block("b", '<speech id="s"><text>Bananas, papayas.</text></speech>')
-        await pilot.advance(cut or 3)
-        pilot.block("stop", composition="REPLACE")
-        await pilot.advance(0.5)
-        rest = round(50 * (pilot.feedback.time("b:s:end") + 0.15))
-        mouth = [weight(pilot, morph) for morph in ("jawOpen", "mouthFunnel", "mouthPucker", "mouthClose")]
-        assert max(morph.max() for morph in mouth) > 0.1
-        assert max(morph[rest:].max() for morph in mouth) == pytest.approx(0.0, abs=0.005)
+async def test_the_mouth_is_at_rest_within_150_ms_of_any_end(pilot: RealizerPilot, cut: float | None) -> None:
+    pilot.block("b", '<speech id="s"><text>Bananas, papayas.</text></speech>')
+    await pilot.advance(cut or 3)
+    pilot.block("stop", composition="REPLACE")
+    await pilot.advance(0.5)
+    rest = round(50 * (pilot.feedback.time("b:s:end") + 0.15))
+    mouth = [weight(pilot, morph) for morph in ("jawOpen", "mouthFunnel", "mouthPucker", "mouthClose")]
+    assert max(morph.max() for morph in mouth) > 0.1
+    assert max(morph[rest:].max() for morph in mouth) == pytest.approx(0.0, abs=0.005)
 
 
 @pytest.mark.speech
