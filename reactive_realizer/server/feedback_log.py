@@ -80,6 +80,7 @@ class FeedbackLog:
         self._parts = 0
         self._steps: Iterator[None] = iter(())
         self._turn: asyncio.Handle | None = None
+        self._ticking = False
 
     def append(self, report: Report) -> None:
         """Numbers a message, keeps it and publishes it, after all earlier ones."""
@@ -92,15 +93,17 @@ class FeedbackLog:
 
     def begin_tick(self) -> None:
         """Writes nothing until `end_tick`."""
+        self._ticking = True
         if self._turn is not None:
             self._turn.cancel()
+            self._turn = None
 
     def end_tick(self, time: GlobalTime) -> None:
         """Publishes the time of a tick, after all of its messages."""
         self._left = _AT_ONCE
+        self._ticking = False
         if self._waiting:
             self._wait(time, 1)
-            self._turn = asyncio.get_running_loop().call_soon(self._take_turn)
         else:
             self.ticks.publish(time)
 
@@ -109,6 +112,8 @@ class FeedbackLog:
         self._parts += parts
         if len(self._waiting) == 1:
             self._steps = self._write_waiting()
+        if not self._ticking and self._turn is None:
+            self._turn = asyncio.get_running_loop().call_soon(self._take_turn)
 
     def _take_turn(self) -> None:
         loop = asyncio.get_running_loop()
