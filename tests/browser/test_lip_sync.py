@@ -13,7 +13,7 @@ import pytest
 pytestmark = [pytest.mark.browser, pytest.mark.speech, pytest.mark.timeout(200)]
 
 ROOT = Path(__file__).parents[2]
-SECONDS = 10
+SECONDS = 15
 """Duration of the speeches under each of two conditions."""
 
 
