@@ -32,8 +32,8 @@ def advanced(
 
     The phase advances linearly from each key position to the next, to arrive when its sync point is due. If a point
     moves, the rate changes from now on, but not the phase itself: a motion is slowed down or sped up, and never jumps
-    or turns back. It passes over unknown points to the next known one, and stands still while no further point is
-    known.
+    or turns back. It moves on to the next known point, but passes no unknown one before that, which is not reached then;
+    and it stands still while no further point is known.
 
     Args:
         last: the last progress.
@@ -46,8 +46,9 @@ def advanced(
     while (key := _next_known(reached, len(phases), time_of)) is not None:
         number, time = key
         if time > now + RESOLUTION:
-            # A point that was unknown may have been passed over.
             way, rate = _way(max(phases[number] - phase, 0.0), time - since, rate, now - since, smoothing)
+            if number > reached and phase + way >= phases[reached]:
+                return Progress(reached, now, max(phase, phases[reached]), 0.0)
             return Progress(reached, now, phase + way, rate)
         phase, since, rate = max(phase, phases[number]), max(since, time), None
         reached = number + 1

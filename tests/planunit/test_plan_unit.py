@@ -212,6 +212,17 @@ def test_the_phase_stands_still_while_the_next_key_is_unknown() -> None:
     assert phases(unit, clock, 1.5, 2.0) == [0.25, 0.5]
 
 
+def test_the_phase_does_not_pass_an_unknown_key_on_its_way_to_a_known_one() -> None:
+    unit = Told(start=0.0, stroke=None, end=2.0)
+    clock = PhaseClock({"start": 0.0, "stroke": 0.4, "end": 1.0})
+    unit.begin()
+    shown = [clock.advance(unit, GlobalTime(time)) for time in (0.4, 0.8, 1.2, 1.6)]
+    assert shown == pytest.approx([0.2, 0.4, 0.4, 0.4])
+    unit.move("stroke", 1.8)
+    after = [clock.advance(unit, GlobalTime(time)) for time in (1.7, 1.8, 1.9, 2.0)]
+    assert after == pytest.approx([0.4, 0.4, 0.7, 1.0])
+
+
 def test_a_unit_that_joins_late_is_at_the_phase_of_now() -> None:
     unit = Told(start=0.0, end=4.0)
     clock = PhaseClock({"start": 0.0, "end": 1.0})
