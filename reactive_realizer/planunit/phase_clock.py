@@ -32,8 +32,8 @@ def advanced(
 
     The phase advances linearly from each key position to the next, to arrive when its sync point is due. If a point
     moves, the rate changes from now on, but not the phase itself: a motion is slowed down or sped up, and never jumps
-    or turns back. It moves on to the next known point, but passes no unknown one before that, which is not reached then;
-    and it stands still while no further point is known.
+    or turns back. It moves on to the next known point, but does not pass unknown ones before it, which are not reached
+    yet. It stands still while no further point is known.
 
     Args:
         last: the last progress.

@@ -5,6 +5,6 @@ import pytest
 from .reached_points import examine
 
 
-@pytest.mark.parametrize("seed", [*range(20), 116, 1127, 1583, 3389, 3498, 31373, 32215, 40776, 51017])
+@pytest.mark.parametrize("seed", [*range(20), 116, 1127, 1583, 3389, 3498, 31373, 32215, 40776, 51017, 52983])
 async def test_a_hand_is_where_its_motion_wants_it_when_its_point_is_reported(seed: int) -> None:
     assert [point for point in await examine(seed) if point.missed] == []
