@@ -229,7 +229,7 @@ function soften(material: MeshStandardMaterial): void {
 }
 
 /** The same material with the cheapest lit shading. */
-function plain(material: MeshStandardMaterial): MeshLambertMaterial {
-  const { name, color, map, alphaTest, transparent, side } = material;
-  return new MeshLambertMaterial({ name, color, map, alphaTest, transparent, side });
+export function plain(material: MeshStandardMaterial): MeshLambertMaterial {
+  const { name, color, vertexColors, map, alphaTest, transparent, side } = material;
+  return new MeshLambertMaterial({ name, color, vertexColors, map, alphaTest, transparent, side });
 }
