@@ -5,18 +5,12 @@ import numpy as np
 from bake.characters import Character
 from bake.makehuman import DECIMETER, BaseMesh, MakeHuman
 from bake.mesh import vertex_normals
+from bake.mouth import close_lips, place_mouth
 from bake.numeric import Array, Indices, Mask
 from bake.rig import bind, read_rig, t_pose
 
 SOLE = 0.018
 """Thickness of the shoe sole, m: the whole body is lifted by this much."""
-
-_MOUTH_FIT = (
-    # upper incisors show in speech, the tongue lies lower than MakeHuman puts it
-    ("helper-upper-teeth", (0, -0.0030, 0.0015)),
-    ("helper-lower-teeth", (0, -0.0008, 0.0008)),
-    ("helper-tongue", (0, -0.0050, -0.0045)),
-)
 
 
 class Body:
@@ -50,9 +44,10 @@ class Body:
         self.places = self.rig.places
         self.turns = np.einsum("vk,kij->vij", self.weights, rotations)
         self.positions = np.einsum("vij,vj->vi", self.turns, shaped) + self.weights @ translations
-        for group, offset in _MOUTH_FIT:
-            self.positions[self.groups[group]] += offset
+        place_mouth(self.positions, self.groups)
         self.triangles, self.uvs = self.triangles_of("body")
+        inside = self.is_inside_mouth
+        close_lips(self.positions, self.triangles[~inside], self.triangles[inside], self.moved("jawOpen")[:, 1])
         self.normals = vertex_normals(self.positions, self.triangles)
 
     def _shape(self, base: BaseMesh, character: Character) -> Array:
@@ -69,6 +64,13 @@ class Body:
     def is_skin(self) -> Mask:
         """A mask of the vertices that belong to the body and not to a helper."""
         return self.among(np.unique(self.triangles))
+
+    @property
+    def is_inside_mouth(self) -> Mask:
+        """Which triangles of the skin line the mouth: (t,)."""
+        middle = self.uvs.mean(1)
+        of_head = self.weight_of("Head", "Neck")[self.triangles].min(1) > 0.5
+        return of_head & (middle[:, 0] > 0.75) & (middle[:, 1] < 0.14)
 
     @property
     def eye_center(self) -> Array:

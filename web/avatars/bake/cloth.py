@@ -92,8 +92,3 @@ def hem(cloth: Mesh, rim: Rim, normals: Array, color: Color, *, depth: float, th
         lambda p, n, out: p - out * depth - n * thickness * 1.3,
     ]
     return band(cloth, rim, rows, normals, color, 0.35)
-
-
-def gaussian(x: Array, middle: float, width: float) -> Array:
-    """A bump of height 1."""
-    return np.exp(-(((x - middle) / width) ** 2))

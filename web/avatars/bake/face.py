@@ -9,6 +9,7 @@ from bake.body import Body
 from bake.hairline import scalp
 from bake.head_map import HeadMap
 from bake.mesh import Mesh, no_uvs, vertex_normals
+from bake.mouth import groove
 from bake.numeric import Array, Color, Indices, Mask, linear, smoothstep, unit
 from bake.primitive import Part
 from bake.rig import SIDES
@@ -16,6 +17,12 @@ from bake.teeth import build_teeth, jaw_moves
 
 _GUMS: Color = (140, 62, 60)
 _TONGUE: Color = (172, 78, 78)
+_CHEEK_TURN, _TONGUE_TURN = 0.9, 0.35
+"""How far normals in the mouth are turned forward; the tongue has to look round."""
+
+_FURROW_SHADE = 0.45
+"""Share of the light that does not reach the bottom of the tongue's furrow."""
+
 _LASH_BINS = 9
 
 
@@ -35,13 +42,14 @@ def face_parts(body: Body, head: HeadMap, positions: Array, covered: Mask) -> It
     seen = _seen_skin(body, head, covered)
     yield part("Head", "Skin", head.triangles[seen], head.uvs[seen], _lip_shade(body, head), body.normals)
     inside, no_texture = head.mouth_triangles, no_uvs(head.mouth_triangles)
-    yield part("Mouth", "Mouth", inside, no_texture, _fade(body, head, _GUMS), _lit_from_front(body.normals))
+    normals = _lit_from_front(body.normals, _CHEEK_TURN)
+    yield part("Mouth", "Mouth", inside, no_texture, _fade(body, head, _GUMS), normals)
     for row, name in zip(build_teeth(body), ("upper-teeth", "lower-teeth"), strict=True):
         normals = vertex_normals(row.positions, row.triangles)
         yield Part(name, row, normals, "Teeth", jaw_moves(body, "helper-" + name, row.positions))
     triangles, _ = body.triangles_of("helper-tongue")
-    normals = _lit_from_front(vertex_normals(body.positions, triangles))
-    yield part("Tongue", "Tongue", triangles, no_uvs(triangles), _fade(body, head, _TONGUE), normals)
+    normals = _lit_from_front(vertex_normals(body.positions, triangles), _TONGUE_TURN)
+    yield part("Tongue", "Tongue", triangles, no_uvs(triangles), _tongue_color(body, head), normals)
     triangles, _ = body.triangles_of("helper-l-eyelashes-2", "helper-r-eyelashes-2")
     normals = vertex_normals(body.positions, triangles)
     yield part("Lashes", "Lashes", triangles, _lash_uvs(body)[triangles], None, normals)
@@ -62,9 +70,16 @@ def _fade(body: Body, head: HeadMap, color: Color) -> Array:
     return linear(color)[None] * np.clip(0.10 + 0.90 * near, 0, 1)[:, None]
 
 
-def _lit_from_front(normals: Array) -> Array:
+def _tongue_color(body: Body, head: HeadMap) -> Array:
+    """That of the tongue (v, 3), with less light in its furrow."""
+    tongue, color = body.groups["helper-tongue"], _fade(body, head, _TONGUE)
+    color[tongue] *= 1 - _FURROW_SHADE * groove(body.positions[tongue])[:, None]
+    return color
+
+
+def _lit_from_front(normals: Array, turn: float) -> Array:
     """Normals (v, 3) turned forward: light comes through the lips, and never through the back of the head."""
-    return unit(normals + np.array([0, 0, 0.9]))
+    return unit(normals + np.array([0, 0, turn]))
 
 
 def _lip_shade(body: Body, head: HeadMap) -> Array:

@@ -32,7 +32,7 @@ class HeadMap:
         self.eye = body.eye_center
         self.center = np.array([0, self.eye[1] + 0.035, self.eye[2] - 0.085])
         self.is_head = _head_triangles(body)
-        inside_mouth = (body.uvs[:, :, 0].mean(1) > 0.75) & (body.uvs[:, :, 1].mean(1) < 0.14)
+        inside_mouth = body.is_inside_mouth
         self.triangles = body.triangles[self.is_head & ~inside_mouth]
         self.body_uvs = body.uvs[self.is_head & ~inside_mouth]
         self.mouth_triangles = body.triangles[self.is_head & inside_mouth]

@@ -23,7 +23,7 @@ def make_materials(glb: Glb, who: Character, head_skin: SkinTextures, body_skin:
         _skin(glb, "Skin", head_skin),
         _material("Mouth", 0.75, **_specular(0.0)),
         _material("Teeth", 0.3, doubleSided=True, **_specular(0.5)),
-        _material("Tongue", 0.55, **_specular(0.25)),
+        _material("Tongue", 0.45, **_specular(0.4)),
         _material("Lashes", 0.9, lash, alphaMode="BLEND", doubleSided=True),
         _skin(glb, "BodySkin", body_skin),
         _material("Eyes", 0.32, eye, normalTexture=eye_normal | {"scale": 0.8}, extensions=clear_coat),

@@ -27,6 +27,11 @@ def smoothstep(start: float, stop: float, x: Array | float) -> Array:
     return t * t * (3 - 2 * t)
 
 
+def gaussian(x: Array, middle: float, width: float) -> Array:
+    """A bump of height 1."""
+    return np.exp(-(((x - middle) / width) ** 2))
+
+
 def linear(rgb: Color | Array) -> Array:
     """An sRGB color, 0..255, in linear light 0..1: vertex colors and factors of glTF are linear, textures are not."""
     return (np.asarray(rgb, float) / 255) ** 2.2

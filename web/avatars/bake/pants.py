@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bake.body import SOLE, Body
-from bake.cloth import SLIVER, Garment, Surface, cut_cloth, gaussian, hem
+from bake.cloth import SLIVER, Garment, Surface, cut_cloth, hem
 from bake.mesh import Mesh, merge, vertex_normals
-from bake.numeric import Array, Mask, smoothstep, value_noise
+from bake.numeric import Array, Mask, gaussian, smoothstep, value_noise
 from bake.rig import SIDES
 from bake.surgery import clip, collapse_rim, relax, rim_vertices, rims
 

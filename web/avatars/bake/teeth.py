@@ -25,6 +25,15 @@ _SQUARENESS = 0.72
 _EDGE_SHARE = 0.28
 """The part of the height of MakeHuman's row in which its biting edge lies."""
 
+_WIDTH = 0.050
+"""Breadth of the upper row at the molars, m. MakeHuman's is wider than its mouth, and stands in the cheeks."""
+
+_SIDE_SHADE = 0.72
+"""Share of the light from the front that lips and cheeks keep from the side teeth."""
+
+_SHADE_TINT = np.array([1, 1.25, 1.4])
+"""Exponents of red, green and blue in shade: what light there is comes from lips, gums and tongue."""
+
 _OVERJET = 0.0022
 """Distance of the lower row behind the upper one, m."""
 
@@ -79,6 +88,7 @@ class _Arch:
         """Fit the arch to the vertices (n, 3) of a row, and draw it in; up is 1 where teeth grow upwards."""
         heights = points[:, 1] * up
         edge = points[heights > heights.max() - _EDGE_SHARE * np.ptp(heights)]
+        edge = edge * [_WIDTH / np.ptp(edge[:, 0]), 1, 1]
         self._back = edge[:, 2].min() - 0.004
         angle = np.arctan2(edge[:, 0], edge[:, 2] - self._back)
         radius = np.hypot(edge[:, 0], edge[:, 2] - self._back) - inset
@@ -169,7 +179,9 @@ class _Row:
         """A mesh of a grid of points (rows, columns, 3), darker towards the throat and the cheeks."""
         triangles = grid_triangles(*points.shape[:2], closed=closed)
         behind = self._arch.front - points[..., 2:]
-        shade = self._light * (0.06 + 0.94 * smoothstep(0.034, 0.002, behind))
+        beside = np.abs(points[..., :1])
+        reached = smoothstep(0.027, 0.002, behind) * (1 - _SIDE_SHADE * smoothstep(0.009, 0.019, beside))
+        shade = self._light * (0.05 + 0.95 * reached) ** _SHADE_TINT
         count = points.size // 3
         weights = np.tile(self._weights, (count, 1))
         colors = (color * shade).reshape(-1, 3)

@@ -7,11 +7,11 @@ from scipy.ndimage import distance_transform_edt, gaussian_filter, map_coordinat
 
 from bake.body import Body, sum_columns
 from bake.characters import TopDesign
-from bake.cloth import SLIVER, Garment, Surface, band, cut_cloth, gaussian, hem
+from bake.cloth import SLIVER, Garment, Surface, band, cut_cloth, hem
 from bake.lowered_arms import LoweredArms
 from bake.mesh import Mesh, merge, neighbors, vertex_normals
 from bake.neckline import collar, neck_field, smooth_neck
-from bake.numeric import Array, Field, smoothstep, value_noise
+from bake.numeric import Array, Field, gaussian, smoothstep, value_noise
 from bake.rig import SIDES
 from bake.surgery import Rim, RimRow, clip, collapse_rim, relax, rim_vertices, rims
 

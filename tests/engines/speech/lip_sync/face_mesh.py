@@ -50,39 +50,48 @@ class FaceMesh:
         morphs: names of the morph targets.
         skin: with the lips.
         inside: of the mouth; it shares the inner edge of the lips with the skin.
-        upper_teeth: as the name says.
+        upper_teeth, lower_teeth, tongue: as their names say.
     """
 
     morphs: tuple[str, ...]
     skin: Part
     inside: Part
     upper_teeth: Part
+    lower_teeth: Part
+    tongue: Part
 
     @classmethod
     def read(cls, path: Path) -> Self:
-        """Reads an avatar of the package (its parts are in this order: skin, inside, upper and lower teeth)."""
+        """Reads an avatar of the package (its parts are in the order of the attributes)."""
         data = path.read_bytes()
         (size,) = struct.unpack_from("<I", data, 12)
         gltf, blob = json.loads(data[20 : 20 + size]), data[20 + size + 8 :]
         face = next(mesh for mesh in gltf["meshes"] if mesh["name"] == "Face")
-        return cls(tuple(face["extras"]["targetNames"]), *(_part(gltf, blob, each) for each in face["primitives"][:3]))
+        return cls(tuple(face["extras"]["targetNames"]), *(_part(gltf, blob, each) for each in face["primitives"][:5]))
 
     def opening(self, weights: Mapping[str, float]) -> float:
         """The greatest height of the gap between the lips that is seen from the front, m."""
-        lips = self._shown(self._lips, weights)
-        half = 0.97 * np.abs(self._shown(self._lip_edge, weights)[:, 0]).max()
+        lips = self.shown(self._lips, weights)
+        half = 0.97 * np.abs(self.shown(self._lip_edge, weights)[:, 0]).max()
         return _largest_gap(lips[self._lips.triangles], np.linspace(-half, half, 24))
 
     def lip_to_teeth(self, weights: Mapping[str, float]) -> float:
         """The distance from the edge of the lower lip to the upper teeth, m."""
-        lip = self._shown(self._lower_lip, weights)
+        lip = self.shown(self._lower_lip, weights)
         middle = lip.mean(0)
         lip, teeth = lip - middle, self._front_teeth - middle
         # A product of matrices takes a tenth of the time of all differences.
         squares = (lip * lip).sum(1)[:, None] + (teeth * teeth).sum(1) - 2.0 * lip @ teeth.T
         return float(np.sqrt(max(0.0, squares.min())))
 
-    def _shown(self, part: Part, weights: Mapping[str, float]) -> Array:
+    @property
+    def mouth(self) -> Array:
+        """The middle (3,) of the lips at rest, m."""
+        middle: Array = self._lip_edge.positions.mean(0)
+        return middle
+
+    def shown(self, part: Part, weights: Mapping[str, float]) -> Array:
+        """The positions of a part's vertices in a face, (V, 3) m."""
         each = np.array([weights.get(morph, 0.0) for morph in self.morphs])
         return part.positions + np.tensordot(each, part.targets, 1)
 
