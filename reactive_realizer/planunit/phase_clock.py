@@ -26,14 +26,20 @@ class Progress(NamedTuple):
 
 
 def advanced(
-    last: Progress, phases: Sequence[float], time_of: Callable[[int], Time], now: GlobalTime, smoothing: float = 0.0
+    last: Progress,
+    phases: Sequence[float],
+    time_of: Callable[[int], Time],
+    now: GlobalTime,
+    smoothing: float = 0.0,
+    stroke: int | None = None,
 ) -> Progress:
     """The progress at a time, not before that of the last one.
 
     The phase advances linearly from each key position to the next, to arrive when its sync point is due. If a point
     moves, the rate changes from now on, but not the phase itself: a motion is slowed down or sped up, and never jumps
-    or turns back. It moves on to the next known point, but does not pass unknown ones before it, which are not reached
-    yet. It stands still while no further point is known.
+    or turns back. It passes over unknown points to the next known one, and stands still while no further point is
+    known. An unknown stroke is reached with the next known point at the latest, so the motion goes no further than to
+    the stroke until then.
 
     Args:
         last: the last progress.
@@ -41,14 +47,15 @@ def advanced(
         time_of: returns the time of the sync point of a key position.
         now: s.
         smoothing: time constant with which the rate adapts to a point that has moved, s.
+        stroke: number of the key position of the stroke; None if there is none.
     """
     reached, since, phase, rate = last
     while (key := _next_known(reached, len(phases), time_of)) is not None:
         number, time = key
         if time > now + RESOLUTION:
-            way, rate = _way(max(phases[number] - phase, 0.0), time - since, rate, now - since, smoothing)
-            if number > reached and phase + way >= phases[reached]:
-                return Progress(reached, now, max(phase, phases[reached]), 0.0)
+            goal = stroke if stroke is not None and reached <= stroke < number else number
+            # A point that was unknown may have been passed over.
+            way, rate = _way(max(phases[goal] - phase, 0.0), time - since, rate, now - since, smoothing)
             return Progress(reached, now, phase + way, rate)
         phase, since, rate = max(phase, phases[number]), max(since, time), None
         reached = number + 1
@@ -125,6 +132,7 @@ class PhaseClock:
 
     def __init__(self, keys: Mapping[str, float]) -> None:
         self._syncs, self._phases = tuple(keys), tuple(keys.values())
+        self._stroke = self._syncs.index("stroke") if "stroke" in keys else None
         self._progress = Progress()
 
     @property
@@ -134,5 +142,7 @@ class PhaseClock:
 
     def advance(self, unit: PlanUnit, now: GlobalTime) -> float:
         """The phase at a time, not before that of the last call."""
-        self._progress = advanced(self._progress, self._phases, lambda k: unit.time(self._syncs[k]), now, _SMOOTHING)
+        self._progress = advanced(
+            self._progress, self._phases, lambda k: unit.time(self._syncs[k]), now, _SMOOTHING, self._stroke
+        )
         return self._progress.phase

@@ -212,15 +212,20 @@ def test_the_phase_stands_still_while_the_next_key_is_unknown() -> None:
     assert phases(unit, clock, 1.5, 2.0) == [0.25, 0.5]
 
 
-def test_the_phase_does_not_pass_an_unknown_key_on_its_way_to_a_known_one() -> None:
-    unit = Told(start=0.0, stroke=None, end=2.0)
-    clock = PhaseClock({"start": 0.0, "stroke": 0.4, "end": 1.0})
+def test_the_phase_does_not_pass_an_unknown_stroke_on_its_way_to_a_known_end() -> None:
+    unit = Told(start=0.0, ready=None, stroke=None, end=2.0)
+    clock = PhaseClock({"start": 0.0, "ready": 0.2, "stroke": 0.4, "end": 1.0})
     unit.begin()
-    shown = [clock.advance(unit, GlobalTime(time)) for time in (0.4, 0.8, 1.2, 1.6)]
-    assert shown == pytest.approx([0.2, 0.4, 0.4, 0.4])
-    unit.move("stroke", 1.8)
-    after = [clock.advance(unit, GlobalTime(time)) for time in (1.7, 1.8, 1.9, 2.0)]
-    assert after == pytest.approx([0.4, 0.4, 0.7, 1.0])
+    assert phases(unit, clock, 0.5, 1.0, 1.5) == [0.1, 0.2, 0.3]
+    unit.move("stroke", 1.75)
+    assert phases(unit, clock, 1.75, 2.0) == [0.4, 1.0]
+
+
+def test_the_phase_passes_an_unknown_ready_on_its_way_to_a_known_stroke() -> None:
+    unit = Told(start=0.0, ready=None, stroke=1.0, end=2.0)
+    clock = PhaseClock({"start": 0.0, "ready": 0.2, "stroke": 0.4, "end": 1.0})
+    unit.begin()
+    assert phases(unit, clock, 0.5, 0.75, 1.0) == [0.2, 0.3, 0.4]
 
 
 def test_a_unit_that_joins_late_is_at_the_phase_of_now() -> None:
