@@ -28,6 +28,7 @@ from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
 from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
+from reactive_realizer.export.video import FLAGS
 from reactive_realizer.testing.pilot import block
 
 _CONDITIONS = {"near": 0.0, "jitter": 0.1}
@@ -61,7 +62,6 @@ _ELSEWHERE = 0.06
 _FADING = 0.13
 """Time after the start of a sound in which the mouth of an interrupted speech still fades, s."""
 
-_FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
 _XML = {"Content-Type": "application/xml"}
 _WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
 
@@ -157,7 +157,7 @@ async def _recorded(
         jittery(address, jitter) as far,
         async_playwright() as playwright,
     ):
-        chromium = await playwright.chromium.launch(executable_path=browser, args=[*_FLAGS, _WITH_SOUND])
+        chromium = await playwright.chromium.launch(executable_path=browser, args=[*FLAGS, _WITH_SOUND])
         page = await chromium.new_page(viewport={"width": 900, "height": 500})
         await page.add_init_script(_RECORDER)
         await page.goto(f"{far}?quality=low")

@@ -25,13 +25,13 @@ from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.lexicon import lexicon_of
+from reactive_realizer.export.video import FLAGS
 from reactive_realizer.realizer.inputs import BmlText, Push
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
 GALLERY = Path(__file__).parent / "gallery"
-FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
 MOUTH = {"female": 0.56, "male": 0.62}
 """Height of the mouth in the picture of a face, as a share of it from above."""
 MOMENTS = 7
@@ -63,7 +63,7 @@ _NOTICEABLE = 24
 
 @dataclass(frozen=True, slots=True)
 class Framing:
-    """What a picture shows.
+    """Chooses the shot, the size and the crop of a picture.
 
     Attributes:
         shot: of the film (`web/src/framing.ts`).

@@ -121,5 +121,5 @@ class VhmsgBridge:
 
 
 def ends(message: VhMessage) -> bool:
-    """Whether a message asks this component to end."""
+    """Return whether a message asks this component to end."""
     return message.word == "vrKillComponent" and message.argument.strip() in (_ALL, NAME)

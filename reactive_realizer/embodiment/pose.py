@@ -65,7 +65,7 @@ class Layer:
 
     @property
     def whole(self) -> bool:
-        """Whether every joint has the weight 1."""
+        """Return whether every joint has the weight 1."""
         return self.weight >= 1.0 and self.weights is None
 
     def weight_of(self, joint: str) -> float:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from playwright.async_api import Page
 
 _BROWSERS: Final = ("chromium", "chromium-browser", "google-chrome")
-_FLAGS: Final = ("--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist")
+FLAGS: Final = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
 """Without a graphics card, Mesa's software renderer, which is faster than the browser's own."""
 _PATIENCE: Final = 60.0
 """The longest time until a picture is drawn, s: the first one waits for the avatars."""
@@ -106,7 +106,7 @@ async def _page(live: LiveScene, picture: Picture) -> AsyncIterator["Page"]:
         address = await stack.enter_async_context(_served(live))
         playwright = await stack.enter_async_context(async_playwright())
         try:
-            browser = await playwright.chromium.launch(executable_path=next(browsers, None), args=list(_FLAGS))
+            browser = await playwright.chromium.launch(executable_path=next(browsers, None), args=FLAGS)
             stack.push_async_callback(browser.close)
             page = await browser.new_page(viewport={"width": width, "height": height}, bypass_csp=True)
             await page.goto(f"{address}?film={picture.shot}")

@@ -14,12 +14,11 @@ from playwright.async_api import Browser, Page, ViewportSize, async_playwright
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
+from reactive_realizer.export.video import FLAGS
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
-# Without a graphics card: Mesa's software renderer, which is quicker than the browser's own.
-FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
 WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
 SMALL: ViewportSize = {"width": 900, "height": 500}
 

@@ -87,6 +87,6 @@ class LateHands:
                 yield Warn(unit, HandLate(point=point, hand=_HANDS[side], distance=100.0 * gap))
 
     def _gaps(self, unit: AnimationUnit) -> Mapping[str, float]:
-        """How far its wrists are from where they should be in the frame shown last, m, by side."""
+        """Measure how far its wrists are from where they should be in the frame shown last, m, by side."""
         own = (side for side in SIDES if f"{side}_shoulder" in unit.motion.joints)
         return {side: self._humanoid.gap(f"{side}_wrist") for side in own}

@@ -29,7 +29,7 @@ Experimental Psychology: Human Perception and Performance 19, 1993), measured ab
 
 
 class Variation(NamedTuple):
-    """How one performance of a motion differs from the authored one. Its sync points stay where they are.
+    """Describes how one performance of a motion differs from the authored one. Its sync points stay where they are.
 
     Attributes:
         waves: in which its size varies.

@@ -90,7 +90,7 @@ class ProceduralAnimation:
 
     @cached_property
     def reaches(self) -> bool:
-        """Whether it brings hands to goals that do not move with the trunk."""
+        """Return whether it brings hands to goals that do not move with the trunk."""
         return any(isinstance(track, EffectorTrack) and track.reaches for track in self.tracks)
 
     @cached_property
