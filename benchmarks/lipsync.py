@@ -22,11 +22,11 @@ from playwright.async_api import async_playwright
 from benchmarks._jitter import jittery
 from benchmarks._served import served
 from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.export.video import FLAGS
 from reactive_realizer.testing.pilot import block

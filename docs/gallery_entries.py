@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from itertools import product
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
+from reactive_realizer.binding.mouth_shapes import SILENCE, VISEMES
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.bml.names import BML_EXT, OWN
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.face.expressions import Expressions
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
-from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, VISEMES
 
 
 @dataclass(frozen=True, slots=True)

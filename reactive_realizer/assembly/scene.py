@@ -16,7 +16,7 @@ from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.bml.dialects import Dialects
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.face_map import StandIns
+from reactive_realizer.embodiment.face_map import STAND_INS, StandIns
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engine.answer_checks import check_weights
@@ -42,9 +42,6 @@ DEFAULT_HUMAN = PACKAGE_ASSETS / "humans" / "default.toml"
 
 WORD_CLASSES, FILLERS = "liveliness/english.toml", "liveliness/fillers.toml"
 """The asset with the words with which speakers move."""
-
-STAND_INS = "face/stand_ins.toml"
-"""The asset that says what faces show instead of blend shapes that they lack."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import ClassVar, Final
 
-from reactive_realizer.bml.attribute_types import BehaviorId, Enumeration, EventName, Float, Id, IdList, Text
+from reactive_realizer.bml.attribute_types import BehaviorId, Enumeration, EventName, Float, Id, IdList, Integer, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.names import BMLA, BMLT
@@ -22,6 +22,9 @@ _START_AND_END: SyncPoints = ("start", "end")
 _FACE_POINTS: SyncPoints = ("start", "attackPeak", "relax", "end")
 _MOST_FAPU = 100_000.0
 """Largest value of a facial animation parameter."""
+_LAST_VISEME, _LAST_EXPRESSION = 14, 6
+WHOLE_FACE: Final = 63
+"""The most of a blend or an intensity of MPEG-4's parameters that select faces."""
 
 
 # --- continuous interaction
@@ -230,16 +233,39 @@ class FaceMorph(Behavior):
 class FaceFap(Behavior):
     """Facial animation parameters of MPEG-4 (thesis 8.8, which leaves their syntax open).
 
+    The attributes with the names of ISO/IEC 14496-2 (annex C.2) are those of the parameters 1 (viseme) and 2
+    (expression), which select faces.
+
     Attributes:
         fap: numbers or names of one or more parameters, such as ``12 raise_r_cornerlip``.
-        value: displacement of the feature point of each of them, in the unit of the parameter (FAPU).
+        value: displacement of the feature point of each of the others, in the unit of the parameter (FAPU).
+        viseme_select1: index of a viseme.
+        viseme_select2: index of another one.
+        viseme_blend: how much of the first one is shown, in 63rds; the rest is the second one.
+        expression_select1: index of an expression.
+        expression_intensity1: its intensity, in 63rds.
+        expression_select2: index of another one, which is added.
+        expression_intensity2: its intensity, in 63rds.
     """
 
     NAMESPACE = BMLT
     SYNC_POINTS: ClassVar[SyncPoints] = _FACE_POINTS
 
     fap: str = field(metadata=attribute(Text()))
-    value: float = field(metadata=attribute(Float(-_MOST_FAPU, _MOST_FAPU)))
+    value: float | None = field(default=None, metadata=attribute(Float(-_MOST_FAPU, _MOST_FAPU)))
+    viseme_select1: int | None = field(default=None, metadata=attribute(Integer(0, _LAST_VISEME), "viseme_select1"))
+    viseme_select2: int = field(default=0, metadata=attribute(Integer(0, _LAST_VISEME), "viseme_select2"))
+    viseme_blend: int = field(default=WHOLE_FACE, metadata=attribute(Integer(0, WHOLE_FACE), "viseme_blend"))
+    expression_select1: int | None = field(
+        default=None, metadata=attribute(Integer(0, _LAST_EXPRESSION), "expression_select1")
+    )
+    expression_intensity1: int = field(
+        default=WHOLE_FACE, metadata=attribute(Integer(0, WHOLE_FACE), "expression_intensity1")
+    )
+    expression_select2: int = field(default=0, metadata=attribute(Integer(0, _LAST_EXPRESSION), "expression_select2"))
+    expression_intensity2: int = field(
+        default=WHOLE_FACE, metadata=attribute(Integer(0, WHOLE_FACE), "expression_intensity2")
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

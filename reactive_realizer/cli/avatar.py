@@ -6,12 +6,11 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
-from reactive_realizer.assembly.scene import STAND_INS
+from reactive_realizer.binding.viseme_binding import standard_binding
 from reactive_realizer.embodiment.avatar import SKIN_COLORS, Avatar
-from reactive_realizer.embodiment.face_map import FaceMap, StandIns
+from reactive_realizer.embodiment.face_map import STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.face_names import ARKIT, OCULUS, VRM
 from reactive_realizer.embodiment.mixamo import JOINTS
-from reactive_realizer.engines.speech.lip_sync.binding import standard_binding
 
 _VOCABULARIES = (("ARKit", ARKIT), ("Oculus", OCULUS), ("VRM", VRM))
 

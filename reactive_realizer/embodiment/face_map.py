@@ -12,6 +12,9 @@ from reactive_realizer.embodiment.turn_weights import turned_joint, weights_of_j
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.file_cache import remembered
 
+STAND_INS = "face/stand_ins.toml"
+"""The asset with the table of stand-ins."""
+
 _Weights = Mapping[str, float]
 _MOST = 10.0
 
@@ -98,10 +101,12 @@ class FaceMap:
     Attributes:
         own: names that move the face as they are meant: of its morph targets as the file has them, of blend shapes,
             visemes and expressions that they or the expressions of the file are, and of the colors of the skin.
+        joints: of its skeleton, which faces may turn.
         stand_ins: blend shape of ARKit that it lacks -> weights of `own`, and of turns of joints.
     """
 
     def __init__(self, avatar: Avatar, table: StandIns = NO_STAND_INS) -> None:
+        self.joints = avatar.skeleton.joints
         self._parts = _parts(avatar, table)
         self.own = tuple(dict.fromkeys((*avatar.morphs, *self._parts)))
         has = frozenset(self.own).union(*map(weights_of_joint, avatar.skeleton.joints))

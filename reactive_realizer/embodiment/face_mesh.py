@@ -1,5 +1,6 @@
 """The shape of an avatar's face: where its vertices are, and where its morph targets move them."""
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,12 +43,23 @@ class FaceMesh:
 
     @classmethod
     def _of(cls, accessors: "_Accessors") -> Self:
-        (names, parts), *_ = accessors.faces()
-        moves = {
-            name: np.concatenate([accessors.positions(part["targets"][number]) for part in parts])
-            for number, name in enumerate(names)
-        }
-        return cls(np.concatenate([accessors.positions(part["attributes"]) for part in parts]), moves)
+        vertices: list[NDArray[np.float64]] = []
+        moves: defaultdict[str, dict[int, NDArray[np.float64]]] = defaultdict(dict)
+        for names, parts in accessors.faces():
+            for part in parts:
+                for name, target in zip(names, part["targets"], strict=True):
+                    moves[name][len(vertices)] = accessors.positions(target)
+                vertices.append(accessors.positions(part["attributes"]))
+        if not vertices:
+            raise ValueError("no morph targets")
+        still = [np.zeros_like(each) for each in vertices]
+        return cls(
+            np.concatenate(vertices),
+            {
+                name: np.concatenate([own.get(number, each) for number, each in enumerate(still)])
+                for name, own in moves.items()
+            },
+        )
 
     def displacement(self, weights: Mapping[str, float]) -> NDArray[np.float64]:
         """Return the displacement of each vertex at weights of morph targets, (V, 3), m.

@@ -1,4 +1,4 @@
-"""Names of ARKit's blend shapes, of the visemes of Oculus and of the expressions of VRM, in any spelling."""
+"""Names of ARKit's blend shapes and some others, of the visemes of Oculus and of VRM's expressions, in any spelling."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -11,6 +11,15 @@ _WHOLE += " mouthRight mouthRollLower mouthRollUpper mouthShrugLower mouthShrugU
 
 ARKIT = (*(f"{name}{side}" for name in _BOTH.split() for side in ("Left", "Right")), *_WHOLE.split())
 """The 52 blend shapes of ARKit (`ARFaceAnchor.BlendShapeLocation`)."""
+
+_SIDED = "earUp earDown earOut earIn eyeConstrict eyeDilation eyeThrust eyeSink noseTip"
+_TONGUE = "tongueUp tongueDown tongueLeft tongueRight tongueTipUp tongueTipDown tongueRoll"
+
+BEYOND_ARKIT = (*(f"{name}{side}" for name in _SIDED.split() for side in ("Left", "Right")), *_TONGUE.split())
+"""Shapes that MPEG-4's parameters move and ARKit lacks.
+
+Their names are those of Unified Expressions (of VRCFaceTracking), where these have such a shape.
+"""
 
 _SOUNDS = ("sil", "PP", "FF", "TH", "DD", "kk", "CH", "SS", "nn", "RR", "aa", "E", "I", "O", "U")
 
@@ -60,7 +69,7 @@ def plain(name: str) -> str:
 
 
 def _spellings() -> Iterator[tuple[str, str]]:
-    yield from ((plain(name), name) for name in ARKIT)
+    yield from ((plain(name), name) for name in (*ARKIT, *BEYOND_ARKIT))
     for sound, name in zip(_SOUNDS, OCULUS, strict=True):
         for spelled in (sound, _OCULUS_VOWELS.get(sound, sound)):
             yield from ((plain(prefix + spelled), name) for prefix in ("viseme_", "v_"))
@@ -71,9 +80,10 @@ _SPELLED_VRM = {plain(name): name for name in VRM}
 
 
 def meaning(name: str, others: Mapping[str, str]) -> str | None:
-    """Return what a file means by the name of a morph target or an expression: one of `ARKIT`, `OCULUS` or `VRM`.
+    """Return what a file means by the name of a morph target or an expression.
 
-    Case and punctuation do not matter; nor does what comes before a punctuation mark, except in names of VRM.
+    This is one of `ARKIT`, `BEYOND_ARKIT`, `OCULUS` or `VRM`. Case and punctuation do not matter; nor does what comes
+    before a punctuation mark, except in names of VRM.
 
     Args:
         name: in the file.

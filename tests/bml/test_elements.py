@@ -191,6 +191,22 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         {"fap": "12 raise_r_cornerlip", "value": -200.0},
         FACE,
     ),
+    '<bmlt:facefap id="x" fap="viseme" viseme_select1="1" viseme_select2="14" viseme_blend="21"/>': (
+        FaceFap,
+        {"value": None, "viseme_select1": 1, "viseme_select2": 14, "viseme_blend": 21},
+        FACE,
+    ),
+    '<bmlt:facefap id="x" fap="2" expression_select1="6" expression_intensity1="9" expression_select2="1" '
+    'expression_intensity2="0"/>': (
+        FaceFap,
+        {
+            "expression_select1": 6,
+            "expression_intensity1": 9,
+            "expression_select2": 1,
+            "expression_intensity2": 0,
+        },
+        FACE,
+    ),
     '<bmlt:facekeyframe id="x" name="laugh" type="FAPS"/>': (
         FaceKeyframe,
         {"animation": "laugh", "type": "FAPS", "interpolator": None},

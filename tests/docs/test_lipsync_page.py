@@ -8,9 +8,9 @@ import pytest
 
 from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.embodiment.joints import JAW
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import open_pilot

@@ -1,15 +1,19 @@
 """The kinds of face units (thesis 8.8): each makes an expression from its parameters."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeVar
 
 from reactive_realizer.binding.asset_file import asset_error, attribute, number, read_xml
+from reactive_realizer.binding.mouth_shapes import MouthShape
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.bml.attribute_types import Enumeration, Float, Integer
+from reactive_realizer.bml.extensions import WHOLE_FACE
 from reactive_realizer.bml.vocabulary import Side
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.face_map import STAND_INS, FaceMap, StandIns
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engines.face.emotion_wheel import EmotionWheel
 from reactive_realizer.engines.face.expressions import Expressions
@@ -29,6 +33,11 @@ _WHEEL = "face/emotion_wheel.json"
 
 _SHARE, _ANGLE, _ACTIVATION, _VALUE = Float(0, 1), Float(0, 360), Float(0, 7), Float()
 _MOST_ACTION_UNITS = 999
+_SELECTIONS = (
+    *("viseme_select1", "viseme_select2", "viseme_blend"),
+    *("expression_select1", "expression_intensity1", "expression_select2", "expression_intensity2"),
+)
+"""The parameters of a face unit that select visemes and expressions of MPEG-4."""
 
 
 class NoMorph(CreationFault):
@@ -82,7 +91,9 @@ class FaceParameters:
             raise RealizerError(BadFaceParameter(name=name, reason=_sentence(text, problem.fault))) from problem
 
 
-_fap_table = remembered(FapTable)
+@remembered
+def _fap_table(path: Path, avatar: Avatar, stand_ins: Path) -> FapTable:
+    return FapTable(path, avatar, FaceMap(avatar, StandIns.read(stand_ins)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +104,7 @@ class FaceShapes:
         expressions: lexemes and action units.
         faps: facial animation parameters.
         wheel: of emotions.
+        visemes: the mouth shape of each.
         morphs: names of the weights that show in the face.
         asset: finds a file by name.
     """
@@ -100,6 +112,7 @@ class FaceShapes:
     expressions: Expressions
     faps: FapTable
     wheel: EmotionWheel
+    visemes: Mapping[str, MouthShape]
     morphs: tuple[str, ...]
     asset: Callable[[str], Path]
 
@@ -108,15 +121,16 @@ class FaceShapes:
         """Those of a character, with the tables among its assets.
 
         Raises:
-            RealizerError: "bad-asset": a table has another format.
+            RealizerError: "bad-asset": a table has another format; "bad-visemes".
         """
-        avatar: Avatar = context.humanoid.avatar
+        avatar, face = context.humanoid.avatar, context.humanoid.face
         expressions = Expressions.read(context.asset(LEXEMES), context.asset(_UNITS))
         return cls(
             expressions,
-            _fap_table(context.asset(_FAPS), avatar),
+            _fap_table(context.asset(_FAPS), avatar, context.asset(STAND_INS)),
             EmotionWheel.read(context.asset(_WHEEL), expressions.lexemes),
-            context.humanoid.face.names,
+            VisemeBinding.of(face, context.bindings.get("visemes", ()), context.asset).shapes,
+            face.names,
             context.asset,
         )
 
@@ -182,18 +196,51 @@ class FaceShapes:
         return morph
 
     def fap(self, parameters: FaceParameters) -> FaceShape:
-        """Facial animation parameters that have one value.
+        """Facial animation parameters: those with values have the same one.
 
         Raises:
-            RealizerError: "no-fap" or "fap-without-morph".
+            RealizerError: "no-fap", "fap-without-morph" or "no-face".
         """
         numbers = self.faps.numbers(parameters.read("fap", _text))
-        return FaceShape(self.faps.weights(dict.fromkeys(numbers, parameters.read("value", _VALUE.read))))
+        selecting = {number: self.faps.faces(number) for number in numbers if self.faps.faces(number)}
+        moving = [number for number in numbers if number not in selecting]
+        values = dict.fromkeys(moving, parameters.read("value", _VALUE.read)) if moving else {}
+        selected = [_SELECTED[number](self, faces, parameters) for number, faces in selecting.items()]
+        return FaceShape(limited(added([self.faps.weights(values), *selected])))
+
+    def _viseme(self, faces: Sequence[str], parameters: FaceParameters) -> Weights:
+        """One viseme, or two mixed (ISO/IEC 14496-2, C.2: ``viseme_select1`` and so on)."""
+        first, second = (_selected("viseme_select", which, faces, parameters) for which in (1, 2))
+        share = _share(parameters, "viseme_blend")
+        return added([scaled(self.visemes[first].morphs, share), scaled(self.visemes[second].morphs, 1.0 - share)])
+
+    def _expression(self, faces: Sequence[str], parameters: FaceParameters) -> Weights:
+        """Two expressions, each at its intensity (ISO/IEC 14496-2, C.2: ``expression_select1`` and so on)."""
+        shown = []
+        for which in (1, 2):
+            lexeme = _selected("expression_select", which, faces, parameters)
+            intensity = _share(parameters, f"expression_intensity{which}")
+            shown.append(self.expressions.face(lexeme, intensity).weights)
+        return added(shown)
 
     def emotion(self, parameters: FaceParameters) -> FaceShape:
         """A place on the wheel of emotions."""
         angle, activation = parameters.read("angle", _ANGLE.read), parameters.read("activation", _ACTIVATION.read)
         return FaceShape(self.wheel.weights(angle, activation * parameters.intensity))
+
+
+_SELECTED: Mapping[int, Callable[[FaceShapes, Sequence[str], FaceParameters], Weights]] = MappingProxyType(
+    {1: FaceShapes._viseme, 2: FaceShapes._expression}
+)
+"""The parameters that select faces, by number."""
+
+
+def _selected(name: str, which: int, faces: Sequence[str], parameters: FaceParameters) -> str:
+    return faces[parameters.read(f"{name}{which}", Integer(0, len(faces) - 1).read, None if which == 1 else "0")]
+
+
+def _share(parameters: FaceParameters, name: str) -> float:
+    return parameters.read(name, Integer(0, WHOLE_FACE).read, str(WHOLE_FACE)) / WHOLE_FACE
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +262,7 @@ KINDS: Mapping[str, FaceKind] = MappingProxyType(
         "AU": FaceKind(("au", "side", "intensity"), FaceShapes.action_unit),
         "FACS": FaceKind(("intensity",), FaceShapes.configuration),
         "Morph": FaceKind(("targetname", "intensity"), FaceShapes.morph),
-        "FAP": FaceKind(("fap", "value"), FaceShapes.fap),
+        "FAP": FaceKind(("fap", "value", *_SELECTIONS), FaceShapes.fap),
         "Plutchik": FaceKind(("angle", "activation", "intensity"), FaceShapes.emotion),
     }
 )

@@ -1,37 +1,40 @@
 """MPEG-4's facial animation parameters (FAPs) as weights of morph targets and joints, from assets/face/faps.json."""
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.body import Skeleton
+from reactive_realizer.embodiment.face_map import FaceMap
 from reactive_realizer.embodiment.face_mesh import FaceMesh
-from reactive_realizer.embodiment.turn_weights import turned_joint
-from reactive_realizer.embodiment.vector import Vec3, scale
+from reactive_realizer.embodiment.turn_weights import weights_of_joint
+from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.face.fapu import Fapu
 from reactive_realizer.engines.face.json_table import bad_entry, read_number, read_table, read_weights
 from reactive_realizer.engines.face.weights import Weights
 from reactive_realizer.errors import CreationFault, RealizerError
 
-_DIRECTIONS: Mapping[str, Vec3] = MappingProxyType(
+_OUTWARD: Final = "outward"
+"""The direction of what grows, such as a pupil: away from its middle."""
+_DIRECTIONS: Mapping[str, Vec3 | None] = MappingProxyType(
     {
         "left": (1.0, 0.0, 0.0),
         "right": (-1.0, 0.0, 0.0),
         "up": (0.0, 1.0, 0.0),
         "down": (0.0, -1.0, 0.0),
         "forward": (0.0, 0.0, 1.0),
+        _OUTWARD: None,
     }
 )
 
-
 _ANGLE: Final = "AU"
 _ANGLE_UNIT: Final = 1e-5
-"""The unit of angles, rad; a weight of 1 turns a joint by one radian."""
+"""The unit of angles, rad; a weight of 1 turns a joint by one radian, or is the full extent of a morph target."""
 
 
 class NoFap(CreationFault):
@@ -48,10 +51,18 @@ class FapWithoutMorph(CreationFault):
     """A facial animation parameter that no blend shape and no joint can play, at least in one direction."""
 
     code = "fap-without-morph"
-    template = "no blend shape of the face is like {sign} values of the facial animation parameter {fap}{instead}"
+    template = "no blend shape of the face is like {sign} values of the facial animation parameter {fap}{missing}"
     fap: str
     sign: str
-    instead: str
+    missing: str
+
+
+class SelectingFap(CreationFault):
+    """A parameter that selects faces, where only the values of others can stand."""
+
+    code = "selecting-fap"
+    template = "the facial animation parameter {fap} has no value of its own: a <bmlt:facefap> selects its faces"
+    fap: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,20 +71,24 @@ class Fap:
 
     Attributes:
         name: of the standard.
-        unit: name of its unit in `Fapu`, AU for an angle; empty if it is not played.
-        direction: of positive values, a unit vector in the figure's frame.
+        unit: name of its unit in `Fapu`, AU for an angle; empty if it selects faces.
+        direction: of positive values, a unit vector in the figure's frame; None is away from the middle of what moves.
         positive: weights of morph targets that move the feature point in this direction, of which the scale is
             measured, or of turns of joints.
         negative: those that move it back.
-        instead: what moves the face in this way, if blend shapes do not.
+        faces: names of the visemes or expressions that it selects by their index; none for all but two parameters.
     """
 
     name: str
     unit: str
-    direction: Vec3
+    direction: Vec3 | None
     positive: Weights
     negative: Weights
-    instead: str
+    faces: tuple[str, ...] = ()
+
+    def weights(self, *, positive: bool) -> Weights:
+        """Those for one sign of the value."""
+        return self.positive if positive else self.negative
 
 
 class FapTable:
@@ -85,20 +100,22 @@ class FapTable:
     Args:
         path: of a table in the format of assets/face/faps.json.
         avatar: with the face.
+        face: what the avatar shows of weights.
 
     Raises:
         RealizerError: "bad-asset": the table has another format.
         OSError: the table cannot be read.
     """
 
-    def __init__(self, path: Path, avatar: Avatar) -> None:
+    def __init__(self, path: Path, avatar: Avatar, face: FaceMap) -> None:
         faps = {read_number(path, key): _fap(path, key, entry) for key, entry in read_table(path, "faps").items()}
         self._faps: Mapping[int, Fap] = faps
         self._numbers = {str(number): number for number in faps} | {fap.name: number for number, fap in faps.items()}
+        self._shown = frozenset(face.names).union(*map(weights_of_joint, face.joints))
         mesh = _face_of(avatar)
-        units = None if mesh is None else _units(avatar, mesh)
-        turning = _turning(faps, avatar.skeleton)
-        self._weights = turning if mesh is None or units is None else turning | _per_value(faps, mesh, units)
+        units = None if mesh is None else _units(avatar, mesh, face)
+        turning = _turning(faps, self._shown)
+        self._weights = turning if mesh is None or units is None else turning | _per_value(faps, mesh, units, face)
 
     def numbers(self, faps: str) -> tuple[int, ...]:
         """The numbers of parameters, from their numbers or names, separated by spaces.
@@ -114,6 +131,10 @@ class FapTable:
             raise RealizerError(NoFap(fap=fap, known=tuple(self._numbers)))
         return number
 
+    def faces(self, number: int) -> tuple[str, ...]:
+        """The names of the visemes or expressions that a parameter selects; none if it has a value."""
+        return self._faps[number].faces
+
     def weights(self, values: Mapping[int, float]) -> dict[str, float]:
         """The weights for values of several parameters.
 
@@ -123,7 +144,7 @@ class FapTable:
             values: number of the parameter -> value, in its unit.
 
         Raises:
-            RealizerError: "fap-without-morph".
+            RealizerError: "fap-without-morph" or "selecting-fap".
         """
         weights: dict[str, float] = {}
         for number, value in values.items():
@@ -133,12 +154,16 @@ class FapTable:
 
     def _of(self, number: int, value: float) -> Weights:
         """The weights of a parameter for each unit of its value."""
-        found = self._weights.get((number, value >= 0.0))
+        fap, positive = self._faps[number], value >= 0.0
+        name = f"{number} ({fap.name})"
+        if fap.faces:
+            raise RealizerError(SelectingFap(fap=name))
+        found = self._weights.get((number, positive))
         if found is None:
-            fap = self._faps[number]
-            instead = f"; {fap.instead}" if fap.instead else ""
-            sign = "positive" if value >= 0.0 else "negative"
-            raise RealizerError(FapWithoutMorph(fap=f"{number} ({fap.name})", sign=sign, instead=instead))
+            lacking = ", ".join(fap.weights(positive=positive).keys() - self._shown)
+            missing = f"; the avatar has no {lacking}" if lacking else ""
+            sign = "positive" if positive else "negative"
+            raise RealizerError(FapWithoutMorph(fap=name, sign=sign, missing=missing))
         return found
 
 
@@ -151,46 +176,59 @@ def _face_of(avatar: Avatar) -> FaceMesh | None:
         return None
 
 
-def _units(avatar: Avatar, mesh: FaceMesh) -> Fapu | None:
+def _units(avatar: Avatar, mesh: FaceMesh, face: FaceMap) -> Fapu | None:
     try:
-        return Fapu.measured(avatar, mesh)
+        return Fapu.measured(avatar, mesh, face)
     except (LookupError, ValueError):
         return None
 
 
-def _turning(faps: Mapping[int, Fap], skeleton: Skeleton) -> dict[tuple[int, bool], Weights]:
-    """The weights of turns of joints for each unit of value, by number and whether the value is positive."""
+def _turning(faps: Mapping[int, Fap], shown: Container[str]) -> dict[tuple[int, bool], Weights]:
+    """The weights of angles for each unit of value, by number and whether the value is positive."""
     return {
         (number, positive): {name: _ANGLE_UNIT * weight for name, weight in weights.items()}
         for number, fap in faps.items()
         if fap.unit == _ANGLE
-        for positive, weights in ((True, fap.positive), (False, fap.negative))
-        if all(turned_joint(name) in skeleton.joints for name in weights)
+        for positive in (True, False)
+        if (weights := fap.weights(positive=positive)) and all(name in shown for name in weights)
     }
 
 
-def _per_value(faps: Mapping[int, Fap], mesh: FaceMesh, units: Fapu) -> dict[tuple[int, bool], Weights]:
-    """The weights for each unit of value, by number and whether the value is positive."""
+def _per_value(faps: Mapping[int, Fap], mesh: FaceMesh, units: Fapu, face: FaceMap) -> dict[tuple[int, bool], Weights]:
+    """The weights of displacements for each unit of value, by number and whether the value is positive."""
     found: dict[tuple[int, bool], Weights] = {}
     for number, fap in faps.items():
-        for positive, weights in ((True, fap.positive), (False, fap.negative)):
-            if weights and weights.keys() <= mesh.moves.keys():
-                direction = fap.direction if positive else scale(fap.direction, -1.0)
-                moved = float((mesh.displacement(weights) @ np.array(direction)).max())
+        if fap.unit == _ANGLE:
+            continue
+        for positive in (True, False):
+            weights = fap.weights(positive=positive)
+            shown = face(weights)
+            if shown and shown.keys() <= mesh.moves.keys():
+                moved = _moved(mesh.displacement(shown), fap.direction, positive=positive)
                 if moved > 0.0:
                     share = getattr(units, fap.unit) / moved
                     found[number, positive] = {morph: share * weight for morph, weight in weights.items()}
     return found
 
 
+def _moved(displacement: NDArray[np.float64], direction: Vec3 | None, *, positive: bool) -> float:
+    """How far the feature point of a displacement, (V, 3), moves, m."""
+    if direction is None:
+        return float(np.linalg.norm(displacement, axis=1).max())
+    along = displacement @ np.array(direction)
+    return float(along.max() if positive else -along.min())
+
+
 def _fap(path: Path, key: str, entry: Any) -> Fap:
     if not isinstance(entry, dict) or not isinstance(entry.get("name"), str):
         raise bad_entry(path, key, "a facial animation parameter has a name")
     positive, negative = (read_weights(path, key, entry.get(part, {})) for part in ("positive", "negative"))
-    unit, direction = entry.get("unit", ""), entry.get("direction", "up")
+    unit, direction, faces = entry.get("unit", ""), entry.get("direction", "up"), entry.get("faces", [])
     units = (*Fapu.__slots__, _ANGLE)
     if (positive or negative) and unit not in units:
         raise bad_entry(path, key, f"the unit is one of {', '.join(units)}")
     if direction not in _DIRECTIONS:
         raise bad_entry(path, key, f"the direction is one of {', '.join(_DIRECTIONS)}")
-    return Fap(entry["name"], unit, _DIRECTIONS[direction], positive, negative, str(entry.get("instead", "")))
+    if not isinstance(faces, list) or not all(isinstance(face, str) for face in faces):
+        raise bad_entry(path, key, "the faces are a list of names")
+    return Fap(entry["name"], unit, _DIRECTIONS[direction], positive, negative, tuple(faces))

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.face_map import FaceMap
 from reactive_realizer.embodiment.face_mesh import FaceMesh
 from reactive_realizer.embodiment.joints import EYES
 
@@ -46,8 +47,13 @@ class Fapu:
     IRISD: float
 
     @classmethod
-    def measured(cls, avatar: Avatar, mesh: FaceMesh) -> Self:
+    def measured(cls, avatar: Avatar, mesh: FaceMesh, face: FaceMap) -> Self:
         """Measure a face.
+
+        Args:
+            avatar: with the face.
+            mesh: of the face.
+            face: what the avatar shows of ARKit's blend shapes.
 
         Raises:
             LookupError: it has no eyes, or lacks a morph target that the measurement uses.
@@ -56,12 +62,13 @@ class Fapu:
         left, right = (np.array(_position(avatar, eye)) for eye in EYES)
         eyes, apart = (left + right) / 2.0, float(np.linalg.norm(left - right))
         corners = [
-            mesh.vertices[mesh.furthest({f"mouthStretch{side}": 1.0}, (toward, 0.0, 0.0))]
+            mesh.vertices[mesh.furthest(face({f"mouthStretch{side}": 1.0}), (toward, 0.0, 0.0))]
             for side, toward in (("Left", 1.0), ("Right", -1.0))
         ]
         mouth = (corners[0] + corners[1]) / 2.0
         nose = _end_of_nose(mesh.vertices, eyes, mouth, _MIDDLE * apart)
-        lids = max(-mesh.moves[f"eyeBlink{side}"][:, 1].min() for side in ("Left", "Right"))
+        blinks = (mesh.displacement(face({f"eyeBlink{side}": 1.0})) for side in ("Left", "Right"))
+        lids = max(-blink[:, 1].min() for blink in blinks)
         distances = (apart, eyes[1] - nose, nose - mouth[1], np.linalg.norm(corners[0] - corners[1]), lids)
         if min(distances) <= 0.0:
             raise ValueError("eyes, nose and mouth are not above each other")

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterator, Mapping
 from types import MappingProxyType
 
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import (
     FILLER,
@@ -24,7 +25,6 @@ from reactive_realizer.engine.sound_engine import SoundEngine
 from reactive_realizer.engine.sound_unit import VOLUME_RANGE
 from reactive_realizer.engine.tts import PITCH_RANGE, RATE_RANGE, Utterance
 from reactive_realizer.engines.speech.elastic_speech import ElasticSpeech
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.engines.speech.recorded.recordings import Recording, Recordings
 from reactive_realizer.engines.speech.speech_unit import (
@@ -75,12 +75,8 @@ class SpeechEngine(SoundEngine):
         self._recordings = Recordings(context.asset, context.limits.sound_seconds)
         self._streams = context.speech_streams
         self._notes = _SpeechNotes()
-        avatar = context.humanoid.avatar
         files = context.bindings.get("visemes", ())
-        face = context.humanoid.face
-        self._visemes = VisemeBinding.read(
-            files, face.own, context.asset, avatar.skeleton.joints, tuple(face.stand_ins)
-        )
+        self._visemes = VisemeBinding.of(context.humanoid.face, files, context.asset)
         self._track: LipSyncTrack | None = None
 
     def check(self, behavior: Behavior) -> Collection[str] | None:

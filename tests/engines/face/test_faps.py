@@ -1,5 +1,7 @@
 """MPEG-4's facial animation parameters: how far they move the faces of the avatars, and in frames."""
 
+import json
+import struct
 from importlib.resources import files
 from pathlib import Path
 
@@ -8,7 +10,9 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.face_map import STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.face_mesh import FaceMesh
+from reactive_realizer.embodiment.glb import read_binary
 from reactive_realizer.embodiment.quaternion import rotate
 from reactive_realizer.engines.face.faps import FapTable
 from reactive_realizer.engines.face.fapu import Fapu
@@ -29,9 +33,17 @@ def face(avatar: Avatar) -> FaceMesh:
     return FaceMesh.read(avatar.path)
 
 
+def map_of(avatar: Avatar) -> FaceMap:
+    return FaceMap(avatar, StandIns.read(ASSETS / STAND_INS))
+
+
+def table_of(avatar: Avatar) -> FapTable:
+    return FapTable(TABLE, avatar, map_of(avatar))
+
+
 @pytest.mark.parametrize("avatar", AVATARS, ids=["female", "male"])
 def test_the_units_are_distances_in_the_face_of_the_avatar(avatar: Avatar) -> None:
-    units = Fapu.measured(avatar, face(avatar))
+    units = Fapu.measured(avatar, face(avatar), map_of(avatar))
     millimeters = {name: 1000 * 1024 * getattr(units, name) for name in Fapu.__slots__}
     # Means of adults with room to both sides: L. G. Farkas, "Anthropometry of the Head and Face" (1994).
     ranges = {"ES": (50, 72), "ENS": (38, 58), "MNS": (14, 28), "MW": (42, 65), "IRISD": (8, 16)}
@@ -56,14 +68,14 @@ def test_the_units_are_distances_in_the_face_of_the_avatar(avatar: Avatar) -> No
 def test_a_value_moves_the_feature_point_by_so_many_units(
     avatar: Avatar, fap: str, value: float, unit: str, direction: tuple[int, int, int]
 ) -> None:
-    table, mesh = FapTable(TABLE, avatar), face(avatar)
+    table, mesh = table_of(avatar), face(avatar)
     moved = mesh.displacement(table.weights(dict.fromkeys(table.numbers(fap), value))) @ np.array(direction)
-    distance = value * getattr(Fapu.measured(avatar, mesh), unit)
+    distance = value * getattr(Fapu.measured(avatar, mesh, map_of(avatar)), unit)
     assert (moved.max() if value > 0 else moved.min()) == pytest.approx(distance)
 
 
 def test_parameters_that_share_a_blend_shape_do_not_move_it_twice() -> None:
-    table = FapTable(TABLE, AVATARS[0])
+    table = table_of(AVATARS[0])
     left, both = table.weights({31: 60}), table.weights({31: 60, 32: 60})
     assert left == both
     assert 0.0 < both["browInnerUp"] < 1.0
@@ -93,14 +105,17 @@ async def test_several_parameters_play_as_one_behavior(pilot: RealizerPilot) -> 
 async def test_what_is_no_parameter_or_moves_no_blend_shape_is_warned_of(pilot: RealizerPilot) -> None:
     pilot.block(
         "b",
-        """<bmlt:facefap id="none" fap="69" value="1"/><bmlt:facefap id="eye" fap="27" value="1000"/>
-           <bmlt:facefap id="jaw" fap="open_jaw" value="-100"/><wait id="w" duration="0.1"/>""",
+        """<bmlt:facefap id="none" fap="69" value="1"/><bmlt:facefap id="ear" fap="65" value="1000"/>
+           <bmlt:facefap id="jaw" fap="open_jaw" value="-100"/><bmlt:facefap id="still" fap="3"/>
+           <bmlt:facefap id="which" fap="viseme"/><wait id="w" duration="0.1"/>""",
     )
     await pilot.advance(1)
     told = [each.text for each in pilot.feedback.of("warningFeedback")]
     assert "there is no facial animation parameter '69'" in told[0]
-    assert "positive values of the facial animation parameter 27 (thrust_l_eyeball); eyes only turn" in told[1]
+    assert "positive values of the facial animation parameter 65 (raise_l_ear); the avatar has no earUpLeft" in told[1]
     assert "negative values of the facial animation parameter 3 (open_jaw)" in told[2]
+    assert "the parameter value of a face unit is missing" in told[3]
+    assert "the parameter viseme_select1 of a face unit is missing" in told[4]
     assert pilot.feedback.reached("b:w:end")
 
 
@@ -141,14 +156,87 @@ async def test_a_rolled_head_tilts_to_its_right(tmp_path: Path) -> None:
         assert crown[0] == pytest.approx(-np.sin(0.2), abs=0.003)
 
 
-def test_all_parameters_but_fifteen_are_played() -> None:
-    table = FapTable(TABLE, AVATARS[0])
-    played = {number for number in range(1, 69) if _plays(table, number)}
-    assert set(range(1, 69)) - played == {1, 2, 27, 28, 29, 30, 43, 44, 46, 47, 64, 65, 66, 67, 68}
+# --- visemes and expressions
 
 
-def _plays(table: FapTable, number: int) -> bool:
+@pytest.mark.parametrize(
+    ("fap", "attributes", "like"),
+    [
+        ("viseme", 'viseme_select1="14"', {"mouthPucker": 0.85, "mouthFunnel": 0.2, "jawOpen": 0.07}),
+        ("1", 'viseme_select1="14" viseme_select2="10" viseme_blend="21"', {"mouthPucker": 0.28, "jawOpen": 0.3}),
+        ("2", 'expression_select1="1"', {"mouthSmileLeft": 0.9, "cheekSquintLeft": 0.8}),
+        ("expression", 'expression_select1="1" expression_intensity1="21"', {"mouthSmileLeft": 0.3}),
+        (
+            "2",
+            'expression_select1="6" expression_intensity1="31" expression_select2="2" expression_intensity2="31"',
+            {"browInnerUp": 0.93, "mouthFrownLeft": 0.39},
+        ),
+        ("2 35", 'expression_select1="1" value="60"', {"mouthSmileLeft": 0.9, "browOuterUpLeft": 0.45}),
+    ],
+)
+async def test_visemes_and_expressions_are_selected_by_their_index_and_mixed(
+    pilot: RealizerPilot, fap: str, attributes: str, like: dict[str, float]
+) -> None:
+    pilot.block("b", f'<bmlt:facefap id="f" fap="{fap}" {attributes}/>')
+    await pilot.advance(1)
+    assert pilot.feedback.warnings == []
+    assert {morph: weight(pilot, morph).max() for morph in like} == pytest.approx(like, abs=0.08)
+
+
+async def test_keyframes_have_values_but_select_no_faces(pilot: RealizerPilot) -> None:
+    rows = "0 0 0  0.5 {} 300  1 0 0"
+    for id_, selected in (("none", 0), ("some", 5)):
+        frames = f'<FaceInterpolator parts="viseme open_jaw">{rows.format(selected)}</FaceInterpolator>'
+        pilot.block(id_, f'<bmlt:facekeyframe id="f" type="FAPS">{frames}</bmlt:facekeyframe>')
+        await pilot.advance(1.5)
+    assert weight(pilot, "jawOpen").max() > 0.1
+    (warning,) = [each.text for each in pilot.feedback.of("warningFeedback")]
+    assert "1 (viseme) has no value of its own" in warning
+
+
+# --- what the avatar has
+
+
+def test_all_parameters_but_thirteen_are_played_by_shapes_of_arkit() -> None:
+    table = table_of(AVATARS[0])
+    played = {number for number in range(3, 69) if _plays(table, number, 100.0)}
+    assert set(range(3, 69)) - played == {27, 28, 29, 30, 43, 44, 46, 47, 64, 65, 66, 67, 68}
+
+
+@pytest.mark.parametrize(
+    ("morph", "fap", "value"),
+    [
+        ("eyeThrustLeft", 27, 1), ("EyeConstrict_R", 30, -1), ("T03_Tongue_Left", 43, -1), ("TongueCurlUp", 44, 1),
+        ("tongueUp", 46, 1), ("TongueRoll", 47, 1), ("Nose_Tip_R", 64, 1), ("Ear_Up_L", 65, 1), ("Ear_In_R", 68, -1),
+    ],
+)  # fmt: skip
+def test_the_others_are_played_by_morph_targets_with_usual_names(
+    tmp_path: Path, morph: str, fap: int, value: float
+) -> None:
+    avatar = Avatar.read(with_morph(morph, tmp_path))
+    table = table_of(avatar)
+    weights = table.weights({fap: 20.0 * value})
+    assert map_of(avatar)(weights) == {morph: pytest.approx(weights[next(iter(weights))])}
+    assert not _plays(table, fap, -20.0 * value)
+
+
+def with_morph(morph: str, folder: Path) -> Path:
+    """An avatar in which a morph target has another name; as it moves in all directions, it fits any parameter."""
+    assert AVATARS[0].path
+    scene, data = read_binary(AVATARS[0].path)
+    names = next(mesh for mesh in scene["meshes"] if mesh["name"] == "Face")["extras"]["targetNames"]
+    names[names.index("noseSneerRight")] = morph
+    text = json.dumps(scene).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = [(b"JSON", text), (b"BIN\0", bytes(data))]
+    body = b"".join(struct.pack("<I4s", len(chunk), kind) + chunk for kind, chunk in chunks)
+    file = folder / "other.glb"
+    file.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body)
+    return file
+
+
+def _plays(table: FapTable, number: int, value: float) -> bool:
     try:
-        return bool(table.weights({number: 100.0}))
+        return bool(table.weights({number: value}))
     except RealizerError:
         return False

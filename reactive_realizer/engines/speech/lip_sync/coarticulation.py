@@ -12,7 +12,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
 from math import exp
 
-from reactive_realizer.engines.speech.lip_sync.shapes import Articulator, MouthShape
+from reactive_realizer.binding.mouth_shapes import Articulator, MouthShape
 from reactive_realizer.engines.speech.lip_sync.timed_visemes import TimedViseme
 
 _REACH = 8.0

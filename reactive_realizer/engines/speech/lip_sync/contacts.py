@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, MouthShape
+from reactive_realizer.binding.mouth_shapes import SILENCE, MouthShape
 from reactive_realizer.engines.speech.lip_sync.timed_visemes import TimedViseme
 
 SHORTEST = 0.025

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 
+from reactive_realizer.binding.mouth_shapes import SILENCE
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.engine.phonetics import CLOSURE, STRESS, is_plosive
 from reactive_realizer.engine.tts import Phoneme, Utterance
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
-from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE
 
 _PAUSE = 0.08
 """Duration below which a pause does not close the mouth, s: espeak-ng has such within words."""

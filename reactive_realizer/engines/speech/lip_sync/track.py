@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping
 
+from reactive_realizer.binding.mouth_shapes import SILENCE
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.engine.tts import Utterance
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.coarticulation import Coarticulation
 from reactive_realizer.engines.speech.lip_sync.contacts import APPROACH, Contacts
-from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE
 from reactive_realizer.engines.speech.lip_sync.timed_visemes import timed_visemes
 
 _SHORTEST = 2 * APPROACH

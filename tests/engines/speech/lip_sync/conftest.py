@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.engine.tts import Phoneme, Utterance
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 
 ASSETS = Assets()
 ARKIT = Avatar.read(ASSETS("avatars/female.glb")).morphs

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from reactive_realizer.binding.mouth_shapes import SILENCE, VISEMES
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.engine.tts import completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
-from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, VISEMES
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.errors import RealizerError
 

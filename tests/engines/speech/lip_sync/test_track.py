@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.engine.phonetics import CLOSURE
 from reactive_realizer.engine.tts import Phoneme, Utterance
-from reactive_realizer.engines.speech.lip_sync.binding import VisemeBinding
 from reactive_realizer.engines.speech.lip_sync.contacts import APPROACH
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.engines.speech.text_voice import TextVoice

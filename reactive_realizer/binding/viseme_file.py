@@ -8,8 +8,8 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
+from reactive_realizer.binding.mouth_shapes import VISEMES, Articulator, MouthShape
 from reactive_realizer.embodiment.turn_weights import turn_weights, turned_joint, weights_of_joint
-from reactive_realizer.engines.speech.lip_sync.shapes import VISEMES, Articulator, MouthShape
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.file_cache import remembered
 

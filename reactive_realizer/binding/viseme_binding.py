@@ -12,8 +12,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import Self
 
-from reactive_realizer.engines.speech.lip_sync.binding_file import read_binding_file
-from reactive_realizer.engines.speech.lip_sync.shapes import SILENCE, VISEMES, Articulator, MouthShape
+from reactive_realizer.binding.mouth_shapes import SILENCE, VISEMES, Articulator, MouthShape
+from reactive_realizer.binding.viseme_file import read_binding_file
+from reactive_realizer.embodiment.face_map import FaceMap
 
 _ARKIT, _PHONEMES = "visemes/arkit.toml", "visemes/phonemes.toml"
 _RECOGNIZED = {
@@ -37,6 +38,11 @@ class VisemeBinding:
     phonemes: Mapping[str, str]
     shapes: Mapping[str, MouthShape]
     articulators: Mapping[str, Articulator]
+
+    @classmethod
+    def of(cls, face: FaceMap, files: Sequence[Path], asset: Callable[[str], Path]) -> Self:
+        """The binding of a face; otherwise as `read`."""
+        return cls.read(files, face.own, asset, face.joints, tuple(face.stand_ins))
 
     @classmethod
     def read(
