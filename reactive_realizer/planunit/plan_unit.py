@@ -380,10 +380,8 @@ class PlanUnit:
                 time = GlobalTime(time + left * needs[index - 1])
             # Another behavior may hold a point that both share.
             time = max(time, point.peg.earliest or time)
-            pinned = [each.peg.value for each in ahead[index - first :] if each.peg.pinned]
-            latest = min((at for at in pinned if at is not None), default=time)
-            if min(time, latest) > now + RESOLUTION:
-                yield point, min(time, latest)
+            if time > now + RESOLUTION:
+                yield point, time
 
     def progress(self, now: GlobalTime) -> float:
         """The share of its present phase that is done, 0 to 1."""

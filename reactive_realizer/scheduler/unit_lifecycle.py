@@ -5,9 +5,10 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
+from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.bml.vocabulary import InterruptSpeech
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime, is_due
+from reactive_realizer.clock.units import GlobalTime, has_passed, is_due
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.faults import UnitFailed
 from reactive_realizer.errors import Fault
@@ -15,7 +16,7 @@ from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import OffsetPeg, TimePeg
 from reactive_realizer.planunit.plan_unit import DuePoint, Hurry, PlanUnit, SyncPoint, UnitState
-from reactive_realizer.planunit.timing import Timing
+from reactive_realizer.planunit.timing import SHORTEST, Timing
 from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks
@@ -255,17 +256,19 @@ class UnitLifecycle:
 
         In a playing block, a point that its body cannot reach in time comes when it can be reached, and another one
         that has moved before the last tick is pinned at this one. In a playing behavior, a point that is overtaken by
-        its successor moves with it from then on. These are added to ``changed``.
+        its successor moves with it from then on, and an end that has moved to the start comes just after it. These are
+        added to ``changed``.
         """
         for _ in range(_MOST_CORRECTIONS):
             self._board.graph.settle()  # so that reading times adds nothing to ``changed``
             units = self._moved(changed)
-            if not (self._hold_back(units) or self._pin_past(units, changed) or self._keep_order(units)):
+            corrections = (self._hold_back, self._keep_ends, partial(self._pin_past, changed=changed), self._keep_order)
+            if not any(correct(units) for correct in corrections):
                 return
 
     def _keep_order(self, units: Iterable[PlanUnit]) -> bool:
         begun = (unit for unit in units if unit.begun)
-        return any(unit.keep_order(partial(self._part_from_rigid, unit)) for unit in begun)
+        return any(unit.keep_order(partial(self._part, unit)) for unit in begun)
 
     def _hold_back(self, units: Iterable[PlanUnit]) -> bool:
         """Have points not come before their bodies can reach them; whether any of them did."""
@@ -274,21 +277,35 @@ class UnitLifecycle:
         for unit in units:
             for point, earliest in unit.earliest(now):
                 time = point.peg.value
-                if time is not None and time < earliest - RESOLUTION and not point.peg.pinned:
-                    unit.hurries[point.id] = Hurry(need=earliest - now, room=max(0.0, time - now))
-                    self._part_from_rigid(unit, point)
-                    point.peg.keep_after(earliest)
-                    held = True
+                if time is None or not has_passed(time, earliest) or (point.peg.pinned and is_due(time, now)):
+                    continue
+                unit.hurries[point.id] = Hurry(need=earliest - now, room=max(0.0, time - now))
+                self._part(unit, point)
+                point.peg.keep_after(earliest)
+                held = True
         return held
 
-    def _part_from_rigid(self, unit: PlanUnit, point: SyncPoint) -> None:
-        """Give a point a peg of its own if it shares one with a behavior that cannot wait for it."""
+    def _keep_ends(self, units: Iterable[PlanUnit]) -> bool:
+        """Have behaviors that take time not end when they start (thesis 7.14); whether any of them did."""
+        kept = False
+        for unit in units:
+            start, end = unit.points[0].peg, unit.points[-1].peg
+            if not unit.begun or end.pinned or start.value is None or not has_passed(end.value, start.value + SHORTEST):
+                continue
+            if not (isinstance(unit.behavior, Wait) or unit.timing.closed.instant):
+                self._part(unit, unit.points[-1])
+                unit.points[-1].peg.keep_after(GlobalTime(start.value + SHORTEST))
+                kept = True
+        return kept
+
+    def _part(self, unit: PlanUnit, point: SyncPoint) -> None:
+        """Give a point a peg of its own if its peg is pinned, or shared by a behavior that cannot wait for it."""
         block = self._blocks.get(unit.block)
         if block is None:
             return
         timings = ((other, other.timing) for other in block.units if other is not unit)
         others = (other for other, timing in timings if timing.rigid and not timing.instant)
-        if any(each.peg is point.peg for other in others for each in other.points):
+        if point.peg.pinned or any(each.peg is point.peg for other in others for each in other.points):
             point.peg = OffsetPeg(self._board.graph, str(unit.key(point.id)), point.peg, 0.0)
             self._board.add(unit.key(point.id), point.peg)
             block.update_end()

@@ -169,3 +169,16 @@ async def test_the_failure_of_a_block_is_its_only_warning(pilot: RealizerPilot) 
     await pilot.advance(1)
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:g"]
     assert pilot.feedback.status("b") == "FAILED"
+
+
+async def test_a_point_that_keeps_its_last_time_waits_for_its_body(pilot: RealizerPilot) -> None:
+    """The stroke of the gesture lets the pointing be ready before its arm can get there from where it is."""
+    gesture = f'<gesture id="p" lexeme="BEAT" mode="RIGHT_HAND" end="{HIT}"/>'
+    pointing = '<pointing id="q" target="bluebox" relax="p:ready" end="p:stroke+0.2"/>'
+    pilot.block("b", gesture + pointing + synchronize("p:relax-1", "q:end"))
+    await pilot.advance(0.03)
+    pilot.predict("t", "hit", pilot.now + 0.2)
+    await pilot.advance(2)
+    assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:p", "b:q"]
+    assert pilot.feedback.time("b:q:ready") - pilot.feedback.time("b:q:start") > 0.35
+    assert pilot.feedback.status("b") == "DONE"

@@ -6,6 +6,7 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.names import BML, OWN
+from reactive_realizer.planunit.timing import SHORTEST
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 TWO_CHARACTERS = Path(__file__).resolve().parents[2] / "examples/two_characters.toml"
@@ -33,6 +34,14 @@ async def test_a_behavior_of_another_block_starts_with_the_event(any_strategy: R
     assert pilot.feedback.time("b:n:start") == pytest.approx(stroke + 0.1, abs=1e-6)
     assert pilot.feedback.status("b") == "DONE"
     assert pilot.feedback.warnings == []
+
+
+async def test_a_behavior_that_an_event_ends_as_it_starts_ends_just_after(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<faceLexeme id="f" lexeme="RAISE_BROWS" end="anticipators:events:go"/>')
+    pilot.block("a", EMIT.format("0") + EMIT.format("1").replace('"e"', '"again"'))
+    await pilot.advance(0.1)
+    assert pilot.feedback.time("b:f:start") == pilot.feedback.time("a:e:start") == 0.0
+    assert pilot.feedback.time("b:f:end") == pytest.approx(SHORTEST)
 
 
 async def test_planners_receive_the_name_and_the_content_as_written(pilot: RealizerPilot) -> None:
