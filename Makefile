@@ -8,9 +8,7 @@ STATIC := reactive_realizer/server/static
 AVATARS := reactive_realizer/assets/avatars
 AVATAR_VENV := web/avatars/.venv
 
-# Tests whose coverage is measured, and its floor in percent. Tracing all tests would double their time.
-MEASURED := $(addprefix tests/,bml pegboard planunit reactive realizer scheduler) \
-  $(addprefix tests/acceptance/,test_emitted_events.py test_late_ties.py test_waiting_for_events.py test_waits.py)
+# The floor in percent of the coverage by the tests that tests/conftest.py names.
 COVERAGE := 95
 
 # One process more than there are processors, because tests of the server, the page and voices often wait. Without
@@ -28,7 +26,7 @@ PAGE := $(STATIC)/index.html
 PAGE_SOURCES := $(shell find web \( -name node_modules -o -name dist -o -name avatars -o -name tests \) -prune -o -type f -print 2>/dev/null)
 
 .DEFAULT_GOAL := help
-.PHONY: help install page demo test test-viewer test-measured test-others bench check check-python check-viewer format docs gallery wheel avatars clean
+.PHONY: help install page demo test test-viewer test-python bench check check-python check-viewer format docs gallery wheel avatars clean
 .DELETE_ON_ERROR:
 
 help: ## List the targets
@@ -41,16 +39,13 @@ page: $(PAGE) ## Build the viewer into the server's static files
 demo: $(INSTALLED) $(PAGE) ## Serve a virtual human that performs when the first page opens
 	$(BIN)/reactive-realizer demo
 
-test: test-viewer test-measured test-others ## Run all tests (BROWSER=none leaves out the browser tests)
+test: test-viewer test-python ## Run all tests (BROWSER=none leaves out the browser tests)
 
 test-viewer: $(NODE_MODULES)
 	$(NPM) test
 
-test-measured: $(INSTALLED)
-	$(PYTEST) $(MEASURED) --cov --cov-fail-under $(COVERAGE)
-
-test-others: $(INSTALLED) $(PAGE)
-	$(PYTEST) $(addprefix --ignore=,$(MEASURED))
+test-python: $(INSTALLED) $(PAGE)
+	$(PYTEST) --cov --cov-fail-under $(COVERAGE)
 
 bench: $(INSTALLED) ## Run the benchmarks, and compare with the last results in benchmarks/history.jsonl
 	$(PIP) install --quiet --constraint constraints.txt --group bench

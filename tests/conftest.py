@@ -23,6 +23,17 @@ vars(providers)["is_local_module_file"] = lambda _: False
 settings.register_profile("same", derandomize=True, deadline=None, database=None, max_examples=50)
 settings.load_profile("same")
 
+TESTS = Path(__file__).resolve().parent
+MEASURED = [
+    *(TESTS / name for name in ("bml", "pegboard", "planunit", "reactive", "realizer", "scheduler")),
+    *(
+        TESTS / "acceptance" / f"test_{name}.py"
+        for name in ("emitted_events", "late_ties", "waiting_for_events", "waits")
+    ),
+]
+"""Tests whose coverage is measured. Tracing all tests would double their time."""
+WAITING = ("browser", "align", "kokoro", "piper", "speech")
+"""Markers of tests that mostly wait, for sound in a page or for a worker."""
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 WITHOUT_BROWSER = os.environ.get("BROWSER") == "none"
 WITHOUT_PIPER = "REACTIVE_REALIZER_PIPER" not in os.environ
@@ -41,8 +52,11 @@ def pytest_report_header() -> list[str]:
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     left_out = [item for item in items if _is_left_out(item)]
-    items[:] = [item for item in items if not _is_left_out(item)]
+    # One process begins with the tests that wait, and the others have work meanwhile.
+    items[:] = sorted((item for item in items if not _is_left_out(item)), key=_does_not_wait)
     for item in items:
+        if not any(item.path.is_relative_to(measured) for measured in MEASURED):
+            item.add_marker(pytest.mark.no_cover)
         if item.get_closest_marker("browser"):
             # On a busy machine, a page may skip what is shown for a moment: a failure counts if it happens three times.
             item.add_marker(pytest.mark.flaky(reruns=2))
@@ -64,6 +78,10 @@ def _is_left_out(item: pytest.Item) -> bool:
         return True
     needed = getattr(item, "fixturenames", ())
     return (not SHARED.is_dir() and "shared" in needed) or (WITHOUT_PIPER and "piper_voice_of_user" in needed)
+
+
+def _does_not_wait(item: pytest.Item) -> bool:
+    return not any(item.get_closest_marker(marker) for marker in WAITING)
 
 
 @pytest.fixture(scope="session")
