@@ -141,9 +141,12 @@ def _listed(value: object) -> object:
     """A tuple of names for a message, separated by commas, truncated if there are many; other values as they are."""
     if not isinstance(value, tuple):
         return value
-    distinct = list(dict.fromkeys(map(str, value)))
-    more = ["..."] if len(distinct) > _MOST_LISTED else []
-    return ", ".join([*map(quoted, distinct[:_MOST_LISTED]), *more]) or "none"
+    distinct: dict[str, None] = {}
+    for each in value:
+        if len(distinct) == _MOST_LISTED and str(each) not in distinct:
+            return ", ".join([*map(quoted, distinct), "..."])
+        distinct[str(each)] = None
+    return ", ".join(map(quoted, distinct)) or "none"
 
 
 class ParsingFault(Fault):
@@ -187,5 +190,8 @@ class RealizerError(Exception):
     """Carries a fault to the code that reports it."""
 
     def __init__(self, fault: Fault) -> None:
-        super().__init__(str(fault))
+        super().__init__(fault)
         self.fault = fault
+
+    def __str__(self) -> str:
+        return str(self.fault)

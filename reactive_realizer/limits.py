@@ -45,6 +45,8 @@ class Limits:
     """Warnings in the answer to a BML document; the others are counted."""
     message_bytes: int = 1_200_000
     """Size of a socket message, bytes: a BML document in JSON."""
+    message_values: int = 50_000
+    """Values in a socket message: texts, numbers, lists and objects."""
     queued_bytes: int = 8 * 1024 * 1024
     """Bytes queued for a slow client; its connection is closed if there are more for half a second."""
     queued_messages: int = 10_000

@@ -21,7 +21,7 @@ def nearest_name(name: str, known: Iterable[str]) -> str | None:
     return None if len(name) > _LONGEST or name in compared else _nearest(name, compared)
 
 
-@lru_cache(1000)
+@lru_cache(2000)
 def _nearest(name: str, known: tuple[str, ...]) -> str | None:
     by_form = {_form(each): each for each in reversed(known) if len(each) <= _LONGEST}
     close = get_close_matches(_form(name), by_form, n=1, cutoff=_LEAST_LIKE)

@@ -22,13 +22,13 @@ class AssetIndex:
         self._folder = folder
         self._changed: dict[str, int] = {}
         self._files: dict[str, list[Path]] = {}
+        self._by_suffix: dict[str, list[str]] = {}
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of all files when the folder was last walked."""
+    def names(self, suffix: str) -> Sequence[str]:
+        """The names of the files with a suffix, such as ``.xml``, when the folder was last walked."""
         if not self._changed:
             self._walk()
-        return tuple(self._files)
+        return self._by_suffix.get(suffix, ())
 
     def files(self, name: str) -> Sequence[Path]:
         """The files with a name, in any order. Links to folders are not followed."""
@@ -37,11 +37,13 @@ class AssetIndex:
         return self._files.get(name, ())
 
     def _walk(self) -> None:
-        self._changed, self._files = {}, {}
+        self._changed, self._files, self._by_suffix = {}, {}, {}
         for folder, _, files in os.walk(self._folder):
             self._changed[folder] = _changed(folder)
             for name in files:
                 self._files.setdefault(name, []).append(Path(folder, name))
+        for name in self._files:
+            self._by_suffix.setdefault(PurePosixPath(name).suffix, []).append(name)
 
 
 def _changed(folder: str) -> int:
@@ -110,8 +112,8 @@ class Assets:
     def _missing(self, name: str) -> NoAsset:
         """The fault of a name that no file has."""
         file = PurePosixPath(name)
-        names = (each for index in self._indices.values() for each in index.names)
-        return NoAsset(name=name, files=(file.name,), known=tuple(each for each in names if each.endswith(file.suffix)))
+        known = (each for index in self._indices.values() for each in index.names(file.suffix))
+        return NoAsset(name=name, files=(file.name,), known=tuple(known))
 
 
 def _relative(name: str) -> PurePosixPath:

@@ -52,7 +52,8 @@ class Explainer:
         path.write_text(json.dumps(self._blocks, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
 
     def _keep(self, block: BMLBlock) -> None:
-        self._blocks.append(self._scheduler.explain(block.key.character, block.key.block))
+        key, points = self._scheduler.explain(block.key.character, block.key.block)
+        self._blocks.append({**key._asdict(), "points": dict(points)})
 
 
 def print_problems(path: Path, problems: Iterable[Problem], stream: TextIO) -> None:

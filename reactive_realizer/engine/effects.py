@@ -37,8 +37,7 @@ class Reached(NamedTuple):
         return behavior if isinstance(behavior, Emit) and self.point.id == "start" else None
 
 
-@dataclass(frozen=True, slots=True)
-class Dropped:
+class Dropped(NamedTuple):
     """A unit left the plan because of a fault."""
 
     unit: PlanUnit

@@ -226,11 +226,12 @@ _TEMPLATES: SizedCache[_TemplateKey, _Template] = SizedCache(_TEMPLATE_CHARACTER
 def _predicted(block: str, prediction: BehaviorPrediction) -> str:
     """The behavior's own element, with times for its sync points; an inline sync of a speech has its own."""
     behavior, times = prediction.behavior, prediction.times
+    points, attributes = frozenset(behavior.sync_points), _attributes(type(behavior))
     key = _TemplateKey(
         written(behavior),
         _legal(f"{block}:{behavior.id}"),
         frozenset(behavior.syncs),
-        frozenset({sync for sync in times if sync in behavior.sync_points or sync not in _attributes(type(behavior))}),
+        frozenset({sync for sync in times if sync in points or sync not in attributes}),
         tuple(times),
     )
     template = _TEMPLATES.get(key)

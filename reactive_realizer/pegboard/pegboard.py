@@ -1,6 +1,6 @@
 """The peg board: the pegs of all characters, by name."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import islice
 
 from reactive_realizer.clock.ticker import Tick
@@ -92,9 +92,14 @@ class PegBoard:
         """
         return explain(self._point(key))
 
-    def explain_block(self, block: BlockKey) -> dict[str, object]:
-        """The explanation of every point of a block by its name, as objects that `json.dumps` takes."""
-        return {str(key): self.explain(key).as_json() for key in self._blocks.get(block, ())}
+    def explain_block(self, block: BlockKey) -> Iterator[tuple[str, object]]:
+        """The name and the explanation of every point of a block, as objects that `json.dumps` takes.
+
+        Points that leave the board meanwhile are left out.
+        """
+        for key in tuple(self._blocks.get(block, ())):
+            if key in self._pegs:
+                yield str(key), self.explain(key).as_json()
 
     def pin_block(self, block: BlockKey) -> list[TimePeg]:
         """Within a transaction, pin all pegs of a block at their times; those that were not pinned, each once."""

@@ -120,8 +120,11 @@ class PlanUnit:
         wake: called when its pegs or its state have changed outside of its engine; its player sets it.
         shortest: duration that the body needs for each phase, s.
         hurries: the points that come later than they were asked for, by sync id.
+        planning_work: what it takes to make it, beside its sync points, as the limit `planning_per_tick` counts.
         ends_early: whether it will be cut at its end, which was brought forward for that.
     """
+
+    planning_work: int = 8
 
     def __init__(
         self, block: BlockKey, behavior: Behavior, timing: Timing, resources: frozenset[str] = frozenset()

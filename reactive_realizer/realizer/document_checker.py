@@ -1,7 +1,7 @@
 """Finds mistakes in BML documents, and behaviors that the scene cannot play."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from itertools import chain
+from itertools import chain, islice
 from typing import NamedTuple
 
 from reactive_realizer.bml.attribute_types import IdList
@@ -35,6 +35,10 @@ _UNPLAYABLE = frozenset(
     }
 )
 """The warning types of valid behaviors that cannot be played; other faults of engines are mistakes in the BML."""
+
+
+_AT_ONCE = 50
+"""Problems that are found in one turn."""
 
 
 class NotInHumanFile(Fault):
@@ -102,9 +106,8 @@ class DocumentChecker:
             found.mistakes.append(_problem(refused, block))
         rehearsing = rehearse_slowly(block, self._routing) if turns is None else rehearse(block, self._routing, turns)
         rehearsal = await rehearsing
-        found.mistakes.extend(self._mistakes(block, rehearsal))
-        found.notes.extend(_foreign_attributes(block, rehearsal))
-        found.notes.extend(self._remote(block))
+        await _add(found.mistakes, self._mistakes(block, rehearsal), turns)
+        await _add(found.notes, chain(_foreign_attributes(block, rehearsal), self._remote(block)), turns)
         for problem in rehearsal.problems:
             (found.notes if problem.fault.warning in _UNPLAYABLE else found.mistakes).append(problem)
         if isinstance(block, BehaviorBlock):
@@ -136,10 +139,9 @@ class DocumentChecker:
                     )
 
     def _unknown_blocks(self, block: BehaviorBlock | DefineProc) -> Iterator[Problem]:
-        known = {None, ANTICIPATORS, block.id, *self._named}
-        others = tuple(name for name in self._named if name != block.id)
         for id_, location, ref in references_of(block):
-            if ref.block not in known:
+            if ref.block not in (None, ANTICIPATORS, block.id) and ref.block not in self._named:
+                others = (name for name in self._named if name != block.id)
                 yield Problem(unknown_block(ref, block, others).located(location.line, location.column), id_)
             if ref.block not in {None, block.id} and ref.behavior is None:
                 fault = unknown_block_point(ref, self._described(ref.block))
@@ -167,6 +169,15 @@ class DocumentChecker:
                 mistyped = self._board.mistyped_anticipator(anticipator, str(ref))
                 fault = mistyped or NotInHumanFile(reference=str(ref), anticipator=anticipator, known=known)
                 yield Problem(fault.located(location.line, location.column), id_)
+
+
+async def _add(found: list[Problem], problems: Iterator[Problem], turns: Turns | None) -> None:
+    """Adds problems, some in each turn."""
+    while some := list(islice(problems, _AT_ONCE)):
+        found += some
+        if turns is not None:
+            async with turns:
+                pass
 
 
 def _by_id(blocks: Iterable[BehaviorBlock]) -> dict[str, list[BehaviorBlock]]:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from reactive_realizer.bml.block import BLOCK_EXTENSIONS
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime, is_due
-from reactive_realizer.engine.effects import Reached
+from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -217,14 +217,18 @@ class BlockLifecycle:
         else:
             self.retime_behavior(unit, lambda: unit.wait(until), now)
 
-    def drop_behavior(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """Drop a behavior that cannot be played any more, and release the behaviors that depend on it."""
-        missed = self._ties.missed_by_drop(unit)
-        self._units.drop(unit, fault, now)
-        block = self._blocks.get(unit.block)
-        if block is not None and not block.failing:
-            self._ties.release(block, missed, DroppedTie, now)
-            self._transitions.subside(unit.block)
+    def drop_behaviors(self, dropped: Iterable[Dropped], now: GlobalTime) -> None:
+        """Drop behaviors that cannot be played any more, and release the behaviors that depend on them."""
+        by_block: dict[BlockKey, list[Dropped]] = {}
+        for each in dropped:
+            by_block.setdefault(each.unit.block, []).append(each)
+        for key, several in by_block.items():
+            missed = self._ties.missed_by_drop(unit for unit, _ in several)
+            self._units.drop(several, now)
+            block = self._blocks.get(key)
+            if block is not None and not block.failing:
+                self._ties.release(block, missed, DroppedTie, now)
+                self._transitions.subside(key)
 
     def settle(self, block: BMLBlock, constraint: Tie | Precedence) -> None:
         """Have a constraint not be checked any more."""
@@ -359,7 +363,7 @@ class BlockLifecycle:
     def _replace_plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
         """Within a transaction, give a block another plan, without the behaviors that this one loses."""
         lost = [unit for unit in block.units if unit not in plan.units]
-        missed = {point: peg for unit in lost for point, peg in self._ties.missed_by_drop(unit).items()}
+        missed = self._ties.missed_by_drop(lost)
         holds, replaced = self._planning.replace(block, plan)
         for other in self._blocks.watch.following(replaced):
             other.rename_pegs(replaced)

@@ -25,11 +25,14 @@ from reactive_realizer.scheduler.problem import Item
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.solution import Loss, lost_behavior
 
-_MOST_AT_ONCE = 50
-"""Behaviors of a block that is solved on the event loop; a bigger block is solved in a thread."""
+_MOST_AT_ONCE, _MOST_POINTS_AT_ONCE = 50, 500
+"""Behaviors and sync points of a block that is solved on the event loop; a bigger block is solved in a thread."""
 
-_UNIT = 8
-"""Work of making a unit, beside that for its sync points."""
+_LOSS = 6
+"""Work of reporting what was lost in a plan."""
+
+_REFUSAL = 8
+"""Work of a behavior of which no unit can be made."""
 
 _MOST_OFTEN = 3
 """Solutions of one block. If times still move then, the last one is committed: its pegs follow them."""
@@ -207,7 +210,7 @@ class BlockPlanner:
         for made in self._preparations[block].units(block.key, block.cancelled, partial(self._left_out, block)):
             if isinstance(made, Loss):
                 refused.append(made)
-                yield _UNIT
+                yield _REFUSAL
                 continue
             made.accompanies = block.gives_way
             items[made] = item_of(made)
@@ -217,7 +220,7 @@ class BlockPlanner:
                 place = block.description.location
                 loss = Loss(None, fault.located(place.line, place.column), dropped=False, required=True)
                 self._drafts[block].outcome = loss
-            yield _UNIT + len(made.timing.points)
+            yield made.planning_work + len(made.timing.points)
         yield from self._solve_until_settled(block, items, refused)
 
     def _solve_until_settled(
@@ -240,7 +243,7 @@ class BlockPlanner:
             yield from self._planning.make_pegs(block, plan)
             if self._holds(block, draft, left):
                 draft.outcome = plan
-                yield 3 * plan.size // 2  # to put it on the board
+                yield 3 * plan.size // 2 + _LOSS * len(plan.losses)  # to put it on the board
             plan.discard()
 
     def _holds(self, block: BMLBlock, draft: _Draft, units: Iterable[PlanUnit]) -> bool:
@@ -251,7 +254,8 @@ class BlockPlanner:
 
     def _solve(self, block: BMLBlock, draft: _Draft, posed: BlockProblem) -> Generator[int, None, Plan]:
         """Solve at once, or in a thread if that would hold up the event loop."""
-        if len(posed.units) <= _MOST_AT_ONCE:
+        points = sum(len(unit.timing.points) for unit in posed.units)
+        if len(posed.units) <= _MOST_AT_ONCE and points <= _MOST_POINTS_AT_ONCE:
             plan = self._planning.solve(posed)
             yield 3 * plan.size
             return plan

@@ -1,6 +1,6 @@
 """The scheduler: takes blocks in, and has them planned, started, played and ended tick by tick (thesis 7.3.4)."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.clock.ticker import next_tick
@@ -123,8 +123,8 @@ class BMLScheduler:
         """Call ``listener(block, problem, solution)`` of each plan that is committed."""
         self._planning.listen(listener)
 
-    def explain(self, character: str, name: str) -> dict[str, object]:
-        """The explanation of each point of a block that is alive, as objects that `json.dumps` takes.
+    def explain(self, character: str, name: str) -> tuple[BlockKey, Iterator[tuple[str, object]]]:
+        """The name of a block that is alive, and its points with their explanations (`PegBoard.explain_block`).
 
         Raises:
             RealizerError: "block-ended", "no-such-block".
@@ -132,7 +132,7 @@ class BMLScheduler:
         block = self.blocks.find(character, name)
         if block is None:
             raise RealizerError(self.blocks.missing(character, name))
-        return {**block.key._asdict(), "points": self._board.explain_block(block.key)}
+        return block.key, self._board.explain_block(block.key)
 
     # --- blocks and procedures that enter
 
@@ -285,8 +285,7 @@ class BMLScheduler:
         if not plays:
             return False
         for play in plays:
-            for dropped in play.dropped:
-                self._lifecycle.drop_behavior(dropped.unit, dropped.fault, now)
+            self._lifecycle.drop_behaviors(play.dropped, now)
             if play.reached:
                 self._lifecycle.sync_points_reached(play.reached)
         asked = self._requests.carry_out([each for play in plays for each in play.requests], now)

@@ -56,6 +56,15 @@ class WaitsForItself(SchedulingFault):
     template = "its start depends on its own end"
 
 
+_SEARCH = 50
+"""Work of finding the known name that an unknown one may mean."""
+
+
+def _search(fault: Fault) -> int:
+    """Find the name that an unknown one may mean, which is remembered until the fault is reported; the work."""
+    return _SEARCH if fault.sentence else 0
+
+
 class ReferenceResolver:
     """Finds the points that the references of one block name.
 
@@ -72,8 +81,11 @@ class ReferenceResolver:
         # What a reference names is found once: the block of the point may end, ticks later, while this one is planned.
         self._outer: dict[SyncRef, TimeCell] = {}
 
-    def drop_unplaceable(self) -> Generator[None, None, list[Loss]]:
-        """Drop the behaviors with invalid references, those that depend on them, and so on; a behavior in each step."""
+    def drop_unplaceable(self) -> Generator[int, None, list[Loss]]:
+        """Drop the behaviors with invalid references, those that depend on them, and so on.
+
+        A behavior in each step, which gives the work that it took.
+        """
         losses: list[Loss] = []
         order = list(self.units)
         unchecked = list(range(len(order)))  # a heap
@@ -88,7 +100,7 @@ class ReferenceResolver:
                 del self.units[unit.behavior.id]
                 for number in naming.get(unit.behavior.id, ()):
                     heappush(unchecked, number)
-            yield
+            yield 1 if fault is None else _search(fault)
         return losses
 
     def locate(self, ref: SyncRef) -> Node:
@@ -247,13 +259,17 @@ class Constraints(NamedTuple):
     losses: list[Loss]
 
 
-def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> Generator[None, None, Constraints]:
-    """All constraints of the units of a block; those of a unit, or a constraint of the block, in each step."""
+def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> Generator[int, None, Constraints]:
+    """All constraints of the units of a block; those of a unit, or a constraint of the block, in each step.
+
+    Each step gives the work that it took.
+    """
     found = Constraints([], [], [])
     for unit in resolver.units.values():
         found.ties.extend(_own_ties(unit, resolver))
-        yield
+        yield 1
     for each in sorted(block.constraints, key=lambda each: isinstance(each, OrderConstraint)):
+        work = 1
         try:
             if isinstance(each, Synchronize):
                 found.ties.extend(resolver.startable(_synchronized(each, resolver)))
@@ -262,7 +278,8 @@ def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> Generat
         except RealizerError as problem:
             fault = problem.fault.located(each.location.line, each.location.column)
             found.losses.append(Loss(None, fault, dropped=False, required=each.required))
-        yield
+            work = _search(fault)
+        yield work
     for ref in block.points.values():
         try:
             resolver.locate(ref)
@@ -274,7 +291,7 @@ def constraints_of(block: BehaviorBlock, resolver: ReferenceResolver) -> Generat
         if mistyped is not None:
             fault = mistyped.located(location.line, location.column)
             found.losses.append(Loss(place.partition(":")[2] or None, fault, dropped=False, required=False))
-        yield
+        yield 1 if mistyped is None else _search(mistyped)
     return found
 
 

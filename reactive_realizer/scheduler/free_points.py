@@ -8,7 +8,7 @@ on that point, it is timed with them.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 from reactive_realizer.planunit.timing import Phase, PhaseKind
 from reactive_realizer.scheduler.problem import Item, Node, Point, Precedence, Tie
@@ -37,27 +37,60 @@ def through_free(items: Sequence[Item], ties: Iterable[Tie], orders: Iterable[Pr
         orders: its before/after constraints.
     """
     free = {point for item in items if item.timing.free for point in item.points}
-    tied, ordered = list(ties), list(orders)
+    tied, ordered = _ByNode(ties), _ByNode(orders)
     for point in sorted(free):
-        tied, ordered = _eliminated(point, tied, ordered, free)
-    constraints: list[Tie | Precedence] = [*tied, *ordered]
-    awaited = {point.behavior for point in free if any(_awaits(each, point) for each in constraints)}
-    return ProblemWithoutFreePoints(
-        tuple(_taking_part(item) if item.behavior.id in awaited else item for item in items), tied, ordered
-    )
+        _eliminate(point, tied, ordered, free)
+    awaited = {
+        point.behavior
+        for point in free
+        if any(_awaits(each, point) for constraints in (tied, ordered) for _, each in constraints.of(point))
+    }
+    taking_part = tuple(_taking_part(item) if item.behavior.id in awaited else item for item in items)
+    return ProblemWithoutFreePoints(taking_part, tied.all, ordered.all)
 
 
-def _eliminated(
-    point: Point, ties: list[Tie], orders: list[Precedence], free: set[Point]
-) -> tuple[list[Tie], list[Precedence]]:
-    own = [tie for tie in ties if point in tie.nodes and tie.left != tie.right]
-    anchors = [tie for tie in own if _other(tie, point)[0] not in free]
+class _ByNode(Generic[C]):
+    """Constraints that are found by the nodes that they name.
+
+    Attributes:
+        all: the constraints, in their order.
+    """
+
+    def __init__(self, constraints: Iterable[C]) -> None:
+        self.all: list[C] = list(constraints)
+        self._places: dict[Node, dict[int, None]] = {}
+        for place, each in enumerate(self.all):
+            self._note(place, each)
+
+    def of(self, node: Node) -> list[tuple[int, C]]:
+        """The constraints on a node, each with its place among all, in order."""
+        return [(place, self.all[place]) for place in sorted(self._places.get(node, ()))]
+
+    def replace(self, place: int, constraint: C) -> None:
+        """Put a constraint in the place of another one."""
+        for node in self.all[place].nodes:
+            self._places[node].pop(place, None)
+        self.all[place] = constraint
+        self._note(place, constraint)
+
+    def _note(self, place: int, constraint: C) -> None:
+        for node in constraint.nodes:
+            self._places.setdefault(node, {})[place] = None
+
+
+def _eliminate(point: Point, ties: _ByNode[Tie], orders: _ByNode[Precedence], free: set[Point]) -> None:
+    """Move the constraints on a point to the node to which one of them ties it, if any does."""
+    own = [(place, tie) for place, tie in ties.of(point) if tie.left != tie.right]
+    anchors = [tie for _, tie in own if _other(tie, point)[0] not in free]
     if not anchors:
-        return ties, orders
+        return
     anchor = min(anchors, key=lambda tie: (not tie.required, tie.owner != point.behavior, tie.text))
     node, later = _other(anchor, point)
-    moved = [_moved(tie, point, node, later) if tie in own and tie is not anchor else tie for tie in ties]
-    return moved, [_moved(order, point, node, later) for order in orders]
+    for place, tie in own:
+        if tie is not anchor:
+            ties.replace(place, _moved(tie, point, node, later))
+    for place, order in orders.of(point):
+        orders.replace(place, _moved(order, point, node, later))
 
 
 def _other(tie: Tie, point: Point) -> tuple[Node, float]:

@@ -35,8 +35,8 @@ logger = logging.getLogger(__name__)
 _PEGS_AT_ONCE = 50
 """Pegs that are made in one step."""
 
-_STEPS_AT_ONCE = 50
-"""Behaviors whose references are resolved in one step."""
+_WORK_AT_ONCE = 50
+"""Work of resolving references in one step: behaviors, if all references are valid."""
 
 _NAMED_AT_ONCE = 100
 """Pegs that are named in one step; this takes half as long as making them."""
@@ -399,18 +399,17 @@ def item_of(unit: PlanUnit) -> Item:
     return Item(unit.behavior, unit.timing.closed)
 
 
-def _in_steps(small: Generator[None, None, T]) -> Generator[int, None, T]:
-    """Do some small steps at once; each gives their number, and the result of the last one is returned."""
-    steps = 0
+def _in_steps(small: Generator[int, None, T]) -> Generator[int, None, T]:
+    """Do some small steps at once; each gives the work that they took, and the result of the last one is returned."""
+    work = 0
     try:
         while True:
-            next(small)
-            steps += 1
-            if steps == _STEPS_AT_ONCE:
-                yield steps
-                steps = 0
+            work += next(small)
+            if work >= _WORK_AT_ONCE:
+                yield work
+                work = 0
     except StopIteration as end:
-        yield steps
+        yield work
         result: T = end.value
         return result
 

@@ -1,11 +1,12 @@
 """Carries out the requests of engines to activate, interrupt and change blocks and behaviors (thesis 8.13-8.15)."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import (
     ActivateBlock,
     BindParameter,
+    Dropped,
     EndUnit,
     FollowCell,
     InterruptBlock,
@@ -92,61 +93,73 @@ class EngineRequests:
                 case _:
                     pass
         timed = [each for each in requests if not isinstance(each, SetParameter | FollowCell | Warn | ReportFall)]
+        rejected: dict[PlanUnit, Dropped] = {}
         for request in sorted(timed, key=lambda each: now if isinstance(each, BindParameter) else each.time):
-            self._carry_out(request, now)
+            unit = request.unit
+            if unit.state is not UnitState.DROPPED and unit not in rejected:
+                refusal = self._carry_out(request, now)
+                if refusal is not None:
+                    rejected[unit] = Dropped(unit, refusal)
+        self._drop(rejected.values(), now)
         return bool(timed)
 
-    def _carry_out(self, request: _Timed, now: GlobalTime) -> None:
-        if request.unit.state is UnitState.DROPPED:
-            return  # an earlier request dropped it
+    def _drop(self, rejected: Collection[Dropped], now: GlobalTime) -> None:
+        """Drop behaviors; of one that another request has ended, only warn."""
+        for unit, fault in rejected:
+            if not unit.live:
+                self._feedback.warn_behavior(unit, fault)
+        self._lifecycle.drop_behaviors([each for each in rejected if each.unit.live], now)
+
+    def _carry_out(self, request: _Timed, now: GlobalTime) -> Fault | None:
+        """Carry out a request; a fault if its behavior is to be dropped, because it cannot be carried out."""
         character = request.unit.block.character
         match request:
             case ActivateBlock(unit, target, time):
                 fault = self._lifecycle.activate(character, target, time)
-                if fault is None:
-                    self._lifecycle.begin_behavior(unit, now)
-                else:
-                    self._reject(unit, fault, now)
+                if fault is not None:
+                    return self._reject(unit, fault)
+                self._lifecycle.begin_behavior(unit, now)
             case InterruptBlock():
-                self._interrupt(request, character, now)
-            case BindParameter(unit):
+                return self._interrupt(request, character, now)
+            case BindParameter():
                 try:
                     self._bind(request, character)
                 except RealizerError as problem:
-                    self._lifecycle.drop_behavior(unit, problem.fault, now)
+                    return problem.fault
             case EndUnit(unit, time):
                 self._lifecycle.finish_behavior(unit, time)
             case MovePoints(unit, times):
                 self._lifecycle.move_points(unit, times)
+        return None
 
-    def _reject(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """Warn of a request that cannot be carried out; its behavior is dropped unless it plays."""
-        if unit.begun:
-            self._feedback.warn_behavior(unit, fault)
-        else:
-            self._lifecycle.drop_behavior(unit, fault, now)
+    def _reject(self, unit: PlanUnit, fault: Fault) -> Fault | None:
+        """The fault of a request, unless its behavior plays: then it only warns."""
+        if not unit.begun:
+            return fault
+        self._feedback.warn_behavior(unit, fault)
+        return None
 
-    def _interrupt(self, request: InterruptBlock, character: str, now: GlobalTime) -> None:
+    def _interrupt(self, request: InterruptBlock, character: str, now: GlobalTime) -> Fault | None:
         block = self._blocks.find(character, request.target)
         if block is None:  # nothing happens, and a block that never existed gives a warning
             self._lifecycle.begin_behavior(request.unit, now)
             missing = self._blocks.missing(character, request.target)
             if isinstance(missing, NoSuchBlock):
                 self._feedback.warn_behavior(request.unit, missing)
-            return
+            return None
         known = tuple(behavior.id for behavior in block.description.behaviors)
         names = set(known)
         spared = names.intersection(request.exclude) | (names.difference(request.include) if request.include else set())
         unknown = [name for name in (*request.include, *request.exclude) if name not in names]
         fault = NoSuchBehavior(block=block.key.block, behaviors=tuple(unknown), known=known)
         if unknown and spared == names:
-            self._reject(request.unit, fault, now)
-            return
+            return self._reject(request.unit, fault)
         # The requesting behavior begins first, because it may depend on the block that is cut, or belong to it.
         self._lifecycle.begin_behavior(request.unit, now)
         if unknown:
             self._feedback.warn_behavior(request.unit, fault)
         self._lifecycle.interrupt(block, request.time, spared, request.speech)
+        return None
 
     def _bind(self, request: BindParameter, character: str) -> None:
         target = self._target(request, character)

@@ -1,8 +1,10 @@
 """Ties to points that never come: behaviors that depend on them keep the last predicted time, or are dropped."""
 
 from collections.abc import Collection, Container, Iterable, Mapping, Sequence
+from itertools import chain
 
 from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.engine.effects import Dropped
 from reactive_realizer.errors import SchedulingFault
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import followers_of
@@ -69,9 +71,12 @@ class TieRelease:
             missed |= self._pegs_of(unit, ahead)
         return missed
 
-    def missed_by_drop(self, unit: PlanUnit) -> MissedPoints:
-        """The points that a behavior will miss if it is dropped."""
-        return self._pegs_of(unit, unit.ahead())
+    def missed_by_drop(self, units: Iterable[PlanUnit]) -> MissedPoints:
+        """The points that behaviors will miss if they are dropped."""
+        missed: dict[Point, TimePeg] = {}
+        for unit in units:
+            missed |= self._pegs_of(unit, unit.ahead())
+        return missed
 
     def release(self, block: BMLBlock, missed: MissedPoints, kind: type[DroppedTie | CutTie], time: GlobalTime) -> None:
         """Have behaviors that depend on missed points of a continuing block keep their times, with a warning."""
@@ -85,8 +90,9 @@ class TieRelease:
                 peg.pin(peg.value)
             block.update_end()
         warned = self.release_from(block.key, pegs, time, kind, began=block.state.plays)
+        tied = _tied_points(missed, block.kept)
         for unit in [unit for unit in block.live_units if unit.behavior.id in dependent and unit not in warned]:
-            point = _tied_point(unit.behavior.id, missed, block.kept)
+            point = tied.get(unit.behavior.id)
             if isinstance(point, Point):
                 self._feedback.warn_behavior(unit, kind(point=str(PegKey(*block.key, *point))))
 
@@ -112,19 +118,24 @@ class TieRelease:
         following = self._blocks.watch.following(followed)
         for block in following:
             self._release_start(block, followed, now)
-        for block, unit in [(each, unit) for each in following for unit in each.live_units]:
-            tied = [point.peg for point in unit.ahead() if point.peg in followed]
-            if not tied:
-                continue
-            never = [peg for peg in tied if peg in lost and peg.value is None]
-            point = self._as_written(unit, owner, followed[(never or tied)[0]])
-            gives_way = block.gives_way and block.key != owner
-            if never or not (began or unit.begun) or (gives_way and not unit.begun):
-                self._units.drop(unit, NeverComes(point=point), now)
-                warned.add(unit)
-            elif block.key != owner and _tied_point(unit.behavior.id, gone, block.kept) is not None:
-                self._feedback.warn_behavior(unit, kind(point=point))
-                warned.add(unit)
+        for block in following:
+            directly = _tied_points(gone, block.kept) if block.key != owner else {}
+            dropped = []
+            for unit in block.live_units:
+                tied = [point.peg for point in unit.ahead() if point.peg in followed]
+                if not tied:
+                    continue
+                never = [peg for peg in tied if peg in lost and peg.value is None]
+                point = self._as_written(unit, owner, followed[(never or tied)[0]])
+                gives_way = block.gives_way and block.key != owner
+                if never or not (began or unit.begun) or (gives_way and not unit.begun):
+                    dropped.append(Dropped(unit, NeverComes(point=point)))
+                    warned.add(unit)
+                elif unit.behavior.id in directly:
+                    self._feedback.warn_behavior(unit, kind(point=point))
+                    warned.add(unit)
+            if dropped:
+                self._units.drop(dropped, now)
         return warned
 
     def _release_start(self, block: BMLBlock, followed: Mapping[TimeCell, TimePeg], now: GlobalTime) -> None:
@@ -144,7 +155,7 @@ class TieRelease:
     def _as_written(self, unit: PlanUnit, owner: BlockKey, peg: TimePeg) -> str:
         """The name that a behavior, or else its block, has for a peg, which may be the peg of several points."""
         block = self._blocks.get(unit.block)
-        refs = (*unit.behavior.syncs.values(), *(block.description.refs if block is not None else ()))
+        refs = chain(unit.behavior.syncs.values(), block.description.refs if block is not None else ())
         own = (ref for ref in refs if (ref.block or unit.block.block) == owner.block)
         keys = (PegKey(*owner, ref.behavior, ref.sync or "start") for ref in own)
         return next((str(key) for key in keys if self._board.get(key) is peg), peg.name)
@@ -155,19 +166,26 @@ def _dependents_of(named: Collection[str], kept: Iterable[Tie | Precedence]) -> 
 
     A behavior does not depend on those that name it: a speech continues without the nod that is tied to its words.
     """
-    ties = [tie for tie in kept if isinstance(tie, Tie)]
-    ends = [(tie.owner, {node.behavior for node in tie.nodes if isinstance(node, Point)}) for tie in ties]
-    found = set(named)
-    while new := {each for owner, ids in ends if ids & found for each in ({owner} if owner else ids)} - found:
+    dependents: dict[str, set[str]] = {}
+    for tie in (tie for tie in kept if isinstance(tie, Tie)):
+        ids = {node.behavior for node in tie.nodes if isinstance(node, Point)}
+        for id_ in ids:
+            dependents.setdefault(id_, set()).update({tie.owner} if tie.owner else ids)
+    found, waiting = set(named), list(named)
+    while waiting:
+        new = dependents.get(waiting.pop(), set()) - found
         found |= new
+        waiting += new
     return found.difference(named)
 
 
-def _tied_point(behavior: str, points: Container[Node], kept: Iterable[Tie | Precedence]) -> Node | None:
-    """The first of some points, or pegs from outside, that a constraint ties a behavior to; None without one."""
+def _tied_points(points: Container[Node], kept: Iterable[Tie | Precedence]) -> dict[str, Node]:
+    """By behavior, the first of some points, or pegs from outside, that a constraint ties it to."""
+    tied: dict[str, Node] = {}
     for each in kept:
-        if any(isinstance(node, Point) and node.behavior == behavior for node in each.nodes):
-            found = next((node for node in each.nodes if node in points), None)
-            if found is not None:
-                return found
-    return None
+        found = next((node for node in each.nodes if node in points), None)
+        if found is not None:
+            for node in each.nodes:
+                if isinstance(node, Point):
+                    tied.setdefault(node.behavior, found)
+    return tied

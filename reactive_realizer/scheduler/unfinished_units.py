@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from reactive_realizer.clock.units import GlobalTime, is_due
+from reactive_realizer.engine.effects import Dropped
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -59,7 +60,7 @@ class UnfinishedUnits:
                 if unfinished.fault is None:
                     self._lifecycle.wait_in_behavior(unit, lacks_from, GlobalTime(now + _WAIT), now)
                 else:
-                    self._lifecycle.drop_behavior(unit, unfinished.fault, lacks_from)
+                    self._lifecycle.drop_behaviors([Dropped(unit, unfinished.fault)], lacks_from)
 
     def _take(self, unit: PlanUnit, engine: Engine, result: Result, now: GlobalTime) -> None:
         """Have a behavior take a result of its slow work."""
@@ -69,7 +70,7 @@ class UnfinishedUnits:
             fault = result.fault if isinstance(result, RealizerError) else WorkFailed(reason=str(result))
             self._units[unit].fault = fault
             if not unit.begun:
-                self._lifecycle.drop_behavior(unit, fault, now)
+                self._lifecycle.drop_behaviors([Dropped(unit, fault)], now)
         else:
             self._lifecycle.retime_behavior(unit, lambda: engine.extend(unit, result, now), now)
 

@@ -9,9 +9,8 @@ from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime, has_passed, is_due
-from reactive_realizer.engine.effects import Reached
+from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.engine.faults import UnitFailed
-from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import OffsetPeg, TimePeg
@@ -115,7 +114,7 @@ class UnitLifecycle:
             return self._cut_short(unit, now)
         except Exception as failure:
             logger.exception("%s/%s:%s failed when it was interrupted", *unit.block, unit.behavior.id)
-            self.drop(unit, UnitFailed(reason=str(failure)), now)
+            self.drop([Dropped(unit, UnitFailed(reason=str(failure)))], now)
             return True
 
     def schedule_cut(self, unit: PlanUnit, cut: ScheduledCut) -> None:
@@ -206,34 +205,48 @@ class UnitLifecycle:
                 reached = [Reached(unit, point, time) for point in unit.finish(time, others)]
         except Exception as failure:
             logger.exception("%s/%s:%s failed when it ended", *unit.block, unit.behavior.id)
-            self.drop(unit, UnitFailed(reason=str(failure)), time)
+            self.drop([Dropped(unit, UnitFailed(reason=str(failure)))], time)
             return
         self._routing.unassign(unit)
         self.sync_points_reached(reached)
         with self._board.graph.transaction(f"end {unit.behavior.id}"):
             block.update_end()
 
-    def drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
-        """Drop a behavior with a warning; if it had begun, it ends now. The block of a required one fails."""
-        block = self._blocks.get(unit.block)
-        if block is not None and unit.begun:
-            if any(point.fired and not is_due(point.peg.value, self._board.previous) for point in unit.points):
+    def drop(self, dropped: Sequence[Dropped], now: GlobalTime) -> None:
+        """Drop behaviors of a block with warnings; those that had begun end now. The block of a required one fails."""
+        units = [each.unit for each in dropped]
+        key, begun = units[0].block, [unit for unit in units if unit.begun]
+        block = self._blocks.get(key)
+        if block is not None and begun:
+            fired = (point.peg.value for unit in begun for point in unit.points if point.fired)
+            if any(not is_due(time, self._board.previous) for time in fired):
                 self._predictions.request(block)  # this tick reports points that no later prediction names
             self._predictions.report_requested(block, now)
-        unit.drop(now)
-        self.touch(unit.block)
-        self._feedback.warn_behavior(unit, fault)
-        if block is not None and unit in block.units:
-            block.units.remove(unit)
-            block.dropped.add(unit.behavior.id)
-            block.failing |= unit.behavior.required
-            with self._board.graph.transaction(f"drop {unit.behavior.id}"):
-                block.update_end(now)
-        self._routing.unassign(unit)
-        if unit.begun and not unit.points[-1].fired:
-            with self._board.graph.transaction(f"cut {unit.key('end')}"):
-                unit.detach(unit.points[-1], now)
-            self.sync_points_reached([Reached(unit, unit.points[-1], now)])
+        self.touch(key)
+        for unit, fault in dropped:
+            unit.drop(now)
+            self._feedback.warn_behavior(unit, fault)
+        if block is not None:
+            self._leave(block, units, now)
+        for unit in units:
+            self._routing.unassign(unit)
+            if unit.begun and not unit.points[-1].fired:
+                with self._board.graph.transaction(f"cut {unit.key('end')}"):
+                    unit.detach(unit.points[-1], now)
+                self.sync_points_reached([Reached(unit, unit.points[-1], now)])
+
+    def _leave(self, block: BMLBlock, units: Collection[PlanUnit], now: GlobalTime) -> None:
+        """Have behaviors that are dropped leave their block, unless they have left it before."""
+        gone = set(units).intersection(block.units)
+        if not gone:
+            return
+        block.units = [unit for unit in block.units if unit not in gone]
+        block.dropped.update(unit.behavior.id for unit in gone)
+        block.failing |= any(unit.behavior.required for unit in gone)
+        names = sorted(unit.behavior.id for unit in gone)
+        more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+        with self._board.graph.transaction(f"drop {names[0]}{more}"):
+            block.update_end(now)
 
     def remove(self, units: Iterable[PlanUnit], now: GlobalTime) -> None:
         """Take behaviors out of their plans without feedback."""

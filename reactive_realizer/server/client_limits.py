@@ -2,15 +2,19 @@
 
 import asyncio
 from collections import deque
-from collections.abc import Awaitable, Callable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Iterator, Sequence, Sized
 from contextlib import contextmanager
+from itertools import count
 from typing import Any, Generic, TypeVar
 
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.faults import TooManyClients
 
-M = TypeVar("M", bound=str | bytes)
+M = TypeVar("M", bound=Sized)
+
+_AT_ONCE = 20
+"""Messages after which other tasks have a turn."""
 
 _TURN = 0.01
 """Time between two looks at a queue above its limit, s."""
@@ -66,8 +70,12 @@ class ClientQueue(Generic[M]):
         """Sends messages until the end. Returns False if the queue exceeded its limit, even during a send."""
         try:
             async with asyncio.timeout(0 if self._overflown else None) as self._sending:
-                while (message := await self._next()) is not None:
+                for sent in count(1):
+                    if (message := await self._next()) is None:
+                        break
                     await send(message)
+                    if sent % _AT_ONCE == 0:
+                        await asyncio.sleep(0)  # neither may have waited
         except TimeoutError:
             if not self._overflown:
                 raise

@@ -37,6 +37,14 @@ class BadMessage(Fault):
     reason: str
 
 
+class TooManyValues(Fault):
+    """A message with more values than the limit allows."""
+
+    code = "too-many-values"
+    template = "the message has more than {limit} values: texts, numbers, lists and objects"
+    limit: int
+
+
 class BadRequest(Fault):
     """An HTTP request that cannot be read."""
 

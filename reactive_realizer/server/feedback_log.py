@@ -48,6 +48,10 @@ class LogEntry:
     block: BlockName | None
     predicts: bool
 
+    def __len__(self) -> int:
+        """The length of its text."""
+        return len(self.text)
+
 
 class FeedbackLog:
     """Numbers feedback messages from 1 and keeps the newest.

@@ -2,8 +2,10 @@
 
 import asyncio
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from typing import Any, NamedTuple
+from itertools import islice
+from typing import Any, NamedTuple, TypeVar
 from xml.sax.saxutils import quoteattr
 
 from reactive_realizer.bml.behaviors import Speech
@@ -24,9 +26,11 @@ from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, 
 from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, UnknownAnticipator, WrongMediaType
 from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.protocol import Message, push_of, streamed_of
+from reactive_realizer.server.protocol import Message, Received, push_of, read, streamed_of
 from reactive_realizer.server.stream_senders import StreamSenders
 from reactive_realizer.server.turns import Turns
+
+T = TypeVar("T")
 
 _LEAD_IN = 150
 """Ticks until the performance begins: by then, a page that has just opened shows its avatars."""
@@ -90,7 +94,14 @@ def _first_spoken(performance: str, limits: Limits) -> str:
 
 
 _SMALL = 2000
-"""Size below which a document is parsed at once: starting a thread takes longer. Larger ones can take many ticks."""
+"""Size below which a text is read at once: starting a thread takes longer. Larger ones can take many ticks."""
+
+_THREADS = 2
+"""Threads that read texts. They are not those of other work, which would wait for clients that send much."""
+
+
+_AT_ONCE = 20
+"""Blocks of a document that are judged or checked in one turn."""
 
 
 class Answer(NamedTuple):
@@ -120,7 +131,7 @@ class BlocksRefused(RealizerError):
 class _Judged(NamedTuple):
     """A document, the ids of its acceptable blocks, and for each of its parts why it is refused, or None."""
 
-    entry: BmlText
+    document: BmlText
     blocks: list[str]
     refusals: list[Fault | None]
 
@@ -144,9 +155,23 @@ class Intake:
         self._stops = 0
         self.closed = False
         self.turns = Turns()
+        self._judging = asyncio.Lock()
+        self._threads = ThreadPoolExecutor(_THREADS, "reading")
         self._heard = HeardReports(live)
         self._senders = StreamSenders(live.realizer)
         self.demo = Demo(live, self.stop)
+
+    async def read(self, text: str | bytes, kind: str | None = None) -> Received:
+        """Reads a message, which is of a kind if it does not contain its type."""
+        most = self._live.limits.message_values
+        return await self._apart(len(text), lambda aside: read(text, most, kind, aside=aside))
+
+    async def _apart(self, size: int, work: Callable[[bool], T]) -> T:
+        """The result of reading a text: in a turn or, if it is long, aside, in a thread; ``work(aside)`` does so."""
+        if size < _SMALL:
+            async with self.turns:
+                return work(False)
+        return await asyncio.get_running_loop().run_in_executor(self._threads, work, True)
 
     async def document(self, text: str | bytes, client: str = "", media_type: str = "") -> Answer:
         """Accepts a client's document if every block can be accepted.
@@ -159,11 +184,11 @@ class Intake:
         Raises:
             BlocksRefused: with the fault of the first block that cannot be accepted; none has entered.
         """
-        judged = await self._judge(text, client, media_type)
+        judged, checker = await self._admitted(text, client, media_type, whole=True)
+        warnings = await self._warnings(judged, checker)
         if judged.first_refusal is not None:
-            warnings = await self._warnings(judged, self._realizer.checker())
             raise BlocksRefused(judged.first_refusal, Answer([], warnings))
-        return await self._enter(judged)
+        return Answer(judged.blocks, warnings)
 
     async def blocks(self, text: str, client: str = "", media_type: str = "") -> Answer:
         """Accepts those blocks of a client's document that can be accepted; feedback reports each of the others.
@@ -176,8 +201,8 @@ class Intake:
         Raises:
             BlocksRefused: with the fault of the first of the others.
         """
-        judged = await self._judge(text, client, media_type)
-        answer = await self._enter(judged)
+        judged, checker = await self._admitted(text, client, media_type, whole=False)
+        answer = Answer(judged.blocks, await self._warnings(judged, checker))
         if judged.first_refusal is not None:
             raise BlocksRefused(judged.first_refusal, answer)
         return answer
@@ -250,7 +275,22 @@ class Intake:
         """Forgets a client that has disconnected."""
         self._senders.leave(client)
 
-    async def _judge(self, text: str | bytes, client: str, media_type: str = "") -> _Judged:
+    async def _admitted(
+        self, text: str | bytes, client: str, media_type: str, *, whole: bool
+    ) -> tuple[_Judged, DocumentChecker]:
+        """Reads and judges a document, and has it enter before its mistakes are looked for, with the checker for these.
+
+        If it is to enter ``whole``, it does not enter if any block is refused.
+        """
+        document = await self._read(text, client, media_type)
+        async with self._judging:  # the next one is judged when this one has entered
+            judged = await self._judge(document, client)
+            checker = self._realizer.checker()
+            if not (whole and judged.first_refusal is not None):
+                self._realizer.put(document)
+        return judged, checker
+
+    async def _read(self, text: str | bytes, client: str, media_type: str) -> BmlText:
         if self.closed:
             raise RealizerError(GoingAway())
         dialects = self._realizer.dialects
@@ -258,33 +298,41 @@ class Intake:
             raise RealizerError(WrongMediaType(type=media_type, known=dialects.media_types))
         kind = media_type if dialects.determined_by(media_type) else ""
         document = self._realizer.numbered(BmlText(text, client, media_type=kind))
-        if len(text) < _SMALL:
-            async with self.turns:
-                document = self._realizer.read(document)
-        else:
-            document = await asyncio.to_thread(self._realizer.read, document)
+        return await self._apart(len(text), lambda _: self._realizer.read(document))
+
+    async def _judge(self, document: BmlText, client: str) -> _Judged:
+        """Judges a document, some blocks at once. Documents of others wait meanwhile, so it does not wait for turns."""
         admission = self._realizer.admission()
         judged = _Judged(document, [], [])
-        for parsed in document.parsed or ():
-            judged.refusals.append(admission.refusal(parsed, client))
-            if judged.refusals[-1] is None and parsed.block is not None:
-                judged.blocks.append(parsed.block.id)
+        parts = iter(document.parsed or ())
+        while some := list(islice(parts, _AT_ONCE)):
+            for parsed in some:
+                judged.refusals.append(admission.refusal(parsed, client))
+                if judged.refusals[-1] is None and parsed.block is not None:
+                    judged.blocks.append(parsed.block.id)
+            if len(some) == _AT_ONCE:
+                await asyncio.sleep(0)
         return judged
 
-    async def _enter(self, judged: _Judged) -> Answer:
-        """Has a document enter, and only then looks for its mistakes."""
-        checker = self._realizer.checker()
-        self._realizer.put(judged.entry)
-        return Answer(judged.blocks, await self._warnings(judged, checker))
-
     async def _warnings(self, judged: _Judged, checker: DocumentChecker) -> list[Problem]:
-        document = judged.entry.parsed or ()
+        document = judged.document.parsed or ()
         warnings: list[Problem] = []
         checker.begin(document)
-        for parsed, refusal in zip(document, judged.refusals, strict=True):
+        for number, (parsed, refusal) in enumerate(zip(document, judged.refusals, strict=True)):
             mistakes, notes = await checker.check(parsed, refusal, self.turns)
             warnings += (each for each in (*mistakes, *notes) if each.fault.warning is not None)
-        return sorted(dict.fromkeys(warnings), key=_place)
+            if number % _AT_ONCE == 0:
+                await self._pause()
+        warnings = sorted(dict.fromkeys(warnings), key=_place)
+        for each in warnings[: self._live.limits.answered_warnings]:
+            _ = each.fault.sentence  # its search for the name that may have been meant is remembered for the answer
+            await self._pause()
+        return warnings
+
+    async def _pause(self) -> None:
+        """Lets ticks and the turns of others come in between."""
+        async with self.turns:
+            pass
 
     def _event(self, event: Event) -> None:
         known = self._realizer.anticipators

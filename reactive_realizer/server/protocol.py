@@ -3,15 +3,16 @@
 import json
 from base64 import b64decode
 from collections.abc import Mapping, Sequence
+from json.scanner import py_make_scanner  # type: ignore[attr-defined]
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.embodiment.audio import StreamedAudio
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.realizer.inputs import Push
-from reactive_realizer.server.faults import BadJson, BadMessage, UnknownMessage
+from reactive_realizer.server.faults import BadJson, BadMessage, TooManyValues, UnknownMessage
 from reactive_realizer.server.schema import Schema, shown
 
 VERSION: Final = 2
@@ -36,6 +37,20 @@ _FROM_CLIENT = _by_type("ClientMessage")
 """Names of definitions, by the type of the message."""
 
 
+class Received(NamedTuple):
+    """A message of a client as it was read.
+
+    Attributes:
+        message: checked; empty if it is refused.
+        ref: that the answer must carry, also if it is refused.
+        refusal: why it is refused, or None.
+    """
+
+    message: Message
+    ref: str | int | None
+    refusal: RealizerError | None
+
+
 class NoNumber(RealizerError):
     """A JSON text that contains a NaN or an infinity.
 
@@ -48,8 +63,20 @@ class NoNumber(RealizerError):
         self.message = message
 
 
-def decode(text: str | bytes) -> Any:
+class _Interruptible(json.JSONDecoder):
+    """Decodes in Python, except for strings, so that a thread that decodes lets others run."""
+
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**options)
+        self.scan_once = py_make_scanner(self)
+
+
+def decode(text: str | bytes, *, aside: bool = False) -> Any:
     """Decodes a JSON text.
+
+    Args:
+        text: the text.
+        aside: whether a thread does so that must not hold up others, which takes longer.
 
     Raises:
         RealizerError: "bad-json".
@@ -57,7 +84,7 @@ def decode(text: str | bytes) -> Any:
     """
     strange: list[str] = []
     try:
-        message = json.loads(text, parse_constant=strange.append)
+        message = json.loads(text, cls=_Interruptible if aside else None, parse_constant=strange.append)
     except (ValueError, RecursionError) as problem:
         raise RealizerError(BadJson(reason=str(problem))) from problem
     if strange:
@@ -100,6 +127,41 @@ def streamed_of(message: Message) -> StreamedAudio:
         raise RealizerError(BadMessage(place="audio", reason="it is not in base64")) from problem
     words = tuple((str(word), float(begin)) for word, begin in message.get("words", ()))
     return StreamedAudio(message["stream"], audio, words, message.get("end", False))
+
+
+def read(text: str | bytes, most: int, kind: str | None = None, *, aside: bool = False) -> Received:
+    """Decodes and checks a message of a client.
+
+    Args:
+        text: the message.
+        most: how many values it may have.
+        kind: its type, if it does not contain it.
+        aside: as for `decode`.
+    """
+    message = None
+    try:
+        message = decode(text, aside=aside)
+        if kind is not None and isinstance(message, dict):
+            message["type"] = kind
+        if aside and _exceeds(message, most):  # only a long one can
+            raise RealizerError(TooManyValues(limit=most))
+        check(message)
+    except NoNumber as refusal:
+        return Received({}, ref_of(refusal.message), refusal)
+    except RealizerError as refusal:
+        return Received({}, ref_of(message), refusal)
+    return Received(message, ref_of(message), None)
+
+
+def _exceeds(value: Any, most: int) -> bool:
+    """Whether a decoded text has more values than some number; it is not nested deeply, as it was decoded."""
+    waiting, found = [value], 1
+    while waiting and found <= most:
+        value = waiting.pop()
+        inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+        found += len(inner)
+        waiting += (each for each in inner if isinstance(each, dict | list))
+    return found > most
 
 
 def ref_of(message: Any) -> str | int | None:

@@ -1,6 +1,7 @@
 """Routes of the page and the files that it loads: avatars, sounds, the schema."""
 
 import asyncio
+from io import BytesIO
 from pathlib import Path
 from typing import Final
 
@@ -60,7 +61,8 @@ async def audio(request: web.Request) -> web.Response:
     wav = request.app[LIVE].sounds.wav(clip)
     if wav is None:
         raise RealizerError(NoClip(clip=clip))
-    return web.Response(body=wav, content_type="audio/wav", headers={"Cache-Control": "no-store"})
+    body = BytesIO(wav)  # is written in pieces, as the client reads them
+    return web.Response(body=body, content_type="audio/wav", headers={"Cache-Control": "no-store"})
 
 
 def built_files() -> list[web.RouteDef]:

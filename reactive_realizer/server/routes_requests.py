@@ -12,7 +12,7 @@ from reactive_realizer.server.faults import SlowRequest, WrongCharset
 from reactive_realizer.server.intake import BlocksRefused
 from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE
 from reactive_realizer.server.middleware import answer_to
-from reactive_realizer.server.protocol import bml_answer, check, decode
+from reactive_realizer.server.protocol import bml_answer
 
 _MARKS: Final = (codecs.BOM_UTF8, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _CHARSETS: Final = {
@@ -69,10 +69,11 @@ async def bml(request: web.Request) -> web.Response:
 @routes.post("/predict")
 async def predict(request: web.Request) -> web.Response:
     """Accepts a prediction, and returns its time."""
-    message = decode(await _body(request))
-    message = {**message, "type": "predict"} if isinstance(message, dict) else message
-    check(message)
-    return web.json_response({"time": request.app[INTAKE].predict(message)}, status=202)
+    intake = request.app[INTAKE]
+    message, _, refusal = await intake.read(await _body(request), "predict")
+    if refusal is not None:
+        raise refusal
+    return web.json_response({"time": intake.predict(message)}, status=202)
 
 
 @routes.post("/stop")

@@ -1,7 +1,9 @@
 """Routes for the state and the capabilities of the realizer."""
 
+import json
 from collections import Counter
 from dataclasses import asdict
+from itertools import islice
 
 from aiohttp import web
 
@@ -9,9 +11,12 @@ from reactive_realizer import __version__
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.scheduler.admission import UnknownCharacter
 from reactive_realizer.server.capabilities import capabilities_of
-from reactive_realizer.server.keys import LIVE
+from reactive_realizer.server.keys import INTAKE, LIVE
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.protocol import VERSION
+
+_AT_ONCE = 5
+"""Points that are explained in one turn; each may depend on a long chain of others."""
 
 routes = web.RouteTableDef()
 
@@ -46,12 +51,18 @@ async def world(request: web.Request) -> web.Response:
 
 @routes.get("/explain/{block}")
 async def explain(request: web.Request) -> web.Response:
-    """The pegs, constraints and commits that set the time of each sync point of a live block."""
-    realizer = request.app[LIVE].realizer
+    """The pegs, constraints and commits that set the time of each sync point of a live block; some in each turn."""
+    realizer, turns = request.app[LIVE].realizer, request.app[INTAKE].turns
     character = request.query.get("character", next(iter(realizer.characters)))
     if character not in realizer.characters:
         raise RealizerError(UnknownCharacter(character=character, known=tuple(realizer.characters)))
-    return web.json_response(realizer.scheduler.explain(character, request.match_info["block"]))
+    key, explained = realizer.scheduler.explain(character, request.match_info["block"])
+    points: list[str] = []
+    while some := list(islice(explained, _AT_ONCE)):
+        async with turns:
+            points += (f"{json.dumps(name)}: {json.dumps(explanation)}" for name, explanation in some)
+    block = json.dumps(key._asdict()).removesuffix("}")
+    return web.json_response(text=block + ', "points": {' + ", ".join(points) + "}}")
 
 
 @routes.get("/capabilities")

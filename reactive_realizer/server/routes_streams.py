@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from aiohttp import web
 
 from reactive_realizer.server.client_limits import ClientQueue
-from reactive_realizer.server.feedback_log import FeedbackLog, LogEntry
+from reactive_realizer.server.feedback_log import LogEntry
 from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE, SHUTDOWN
 from reactive_realizer.server.prediction_rate import follow_feedback
 from reactive_realizer.server.socket_client import SocketClient
@@ -73,15 +73,19 @@ async def feedback(request: web.Request) -> web.StreamResponse:
         answer = web.StreamResponse(headers={"Content-Type": "text/event-stream", "Cache-Control": "no-store"})
         await answer.prepare(request)
         _keep_buffer_small(request)
-        queue = ClientQueue(live.limits, _missed(live.feedback, after))
+        log = live.feedback
+        missed, gap = ([], None) if after is None else (log.after(after), log.gap(after))
+        queue: ClientQueue[LogEntry] = ClientQueue(live.limits, missed)
 
-        async def write(text: str) -> None:
-            await answer.write(text.encode())
+        async def write(entry: LogEntry) -> None:
+            await answer.write(f"id: {entry.seq}\ndata: {entry.text}\n\n".encode())
 
         with ExitStack() as stack:
             stack.enter_context(live.clients.served(queue))
-            follow_feedback(live.feedback, predictions, lambda entry: queue.put(_event(entry)), stack)
+            follow_feedback(log, predictions, queue.put, stack)
             stack.callback(request.app[SHUTDOWN].subscribe(lambda _: queue.end()))
+            if gap is not None:
+                await answer.write(f"event: gone\ndata: {gap}\n\n".encode())
             kept_up = await queue.send_all(write)
         if not kept_up:
             _hang_up(request)
@@ -103,17 +107,6 @@ def _free_frames(failure: BaseException | None) -> None:
     """
     if failure is not None:
         failure.__traceback__ = failure.__context__ = None
-
-
-def _missed(log: FeedbackLog, after: int | None) -> list[str]:
-    if after is None:
-        return []
-    gap = log.gap(after)
-    return [*([] if gap is None else [f"event: gone\ndata: {gap}\n\n"]), *map(_event, log.after(after))]
-
-
-def _event(entry: LogEntry) -> str:
-    return f"id: {entry.seq}\ndata: {entry.text}\n\n"
 
 
 def _keep_buffer_small(request: web.Request) -> None:

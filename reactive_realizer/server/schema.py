@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from itertools import islice
 from typing import Any
 
 from jsonschema import Draft202012Validator, ValidationError
@@ -51,7 +52,7 @@ class Schema:
 
 def shown(value: object) -> str:
     """A value as JSON, truncated if it is long."""
-    text = json.dumps(value)
+    text = "".join(islice(json.JSONEncoder().iterencode(value), _MOST_SHOWN + 1))  # a long one is not written whole
     return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "..."
 
 

@@ -12,17 +12,7 @@ from reactive_realizer.server.faults import BinaryMessage, GoingAway, TooSlow
 from reactive_realizer.server.intake import Answer, BlocksRefused, Intake
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.prediction_rate import follow_feedback
-from reactive_realizer.server.protocol import (
-    Message,
-    NoNumber,
-    accepted,
-    bml_answer,
-    check,
-    decode,
-    encode,
-    ref_of,
-    refused,
-)
+from reactive_realizer.server.protocol import Message, accepted, bml_answer, encode, refused
 from reactive_realizer.server.socket_writer import write_at_once
 from reactive_realizer.server.statuses import CLOSE_CODES
 from reactive_realizer.server.stream_query import Stream
@@ -160,20 +150,17 @@ class SocketClient:
         try:
             if received.type is not WSMsgType.TEXT:
                 raise RealizerError(BinaryMessage())
-            async with self._intake.turns:  # what has arrived is read without a pause, and would hold up the session
-                message = decode(received.data)
-                ref = ref_of(message)
-                check(message)
-                more = self._answer(message)
+            message, ref, refusal = await self._intake.read(received.data)
+            if refusal is not None:
+                raise refusal
+            more = self._answer(message)
             if message["type"] == "bml":
                 answer = await self._intake.blocks(message["xml"], self._name, message.get("mediaType", ""))
                 more = self._about(answer)
-        except NoNumber as refusal:
-            self._enqueue(refused(refusal, ref_of(refusal.message)))
-        except BlocksRefused as refusal:
-            self._enqueue(refused(refusal, ref, self._about(refusal.answer)))
-        except RealizerError as refusal:
-            self._enqueue(refused(refusal, ref))
+        except BlocksRefused as problem:
+            self._enqueue(refused(problem, ref, self._about(problem.answer)))
+        except RealizerError as problem:
+            self._enqueue(refused(problem, ref))
         else:
             if ref is not None:
                 self._enqueue(accepted(ref, more))

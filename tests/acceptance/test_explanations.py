@@ -15,7 +15,7 @@ BLOCK = (
 
 
 def explained(pilot: RealizerPilot, point: str) -> Any:
-    points: Any = pilot.realizer.scheduler.explain("alice", "b")["points"]
+    points: Any = dict(pilot.realizer.scheduler.explain("alice", "b")[1])
     return points[point]
 
 

@@ -96,4 +96,4 @@ async def test_an_id_that_is_used_again_refers_to_the_new_block(met: RealizerPil
 async def test_explanations_resolve_ids_in_the_same_way(met: RealizerPilot) -> None:
     with pytest.raises(RealizerError, match="has ended"):
         met.realizer.scheduler.explain("alice", "a")
-    assert met.realizer.scheduler.explain("bob", "a")["character"] == "bob"
+    assert met.realizer.scheduler.explain("bob", "a")[0].character == "bob"

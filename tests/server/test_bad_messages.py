@@ -6,7 +6,7 @@ import json
 import pytest
 
 from reactive_realizer.pegboard.peg_key import PegKey
-from reactive_realizer.server import socket_client
+from reactive_realizer.server import protocol
 from reactive_realizer.server.protocol import Message
 
 from .conftest import ALICE, BML, Open, Socket, wait
@@ -280,7 +280,7 @@ async def test_ticks_come_between_the_messages_of_a_client_that_sends_many_at_on
         def check(message: Message) -> None:
             turns.append(turn)
 
-        monkeypatch.setattr(socket_client, "check", check)
+        monkeypatch.setattr(protocol, "check", check)
         socket = await air.connect()
         for number in range(50):
             await socket.raw.send_json({"type": "clock", "ref": number})

@@ -527,10 +527,10 @@ class AnimationEngine(DefaultEngine):
         fade_outs = (fade_out, *self._fade_outs) if lowest else (*self._fade_outs, fade_out)
         self._fade_outs = [other for other in fade_outs if not other.finished(fade_out.since)]
 
-    def _roots(self) -> list[Vec3]:
-        """Return the displacements of HumanoidRoot at rest and in playing motions."""
-        playing = (unit.shown.root for unit in self._playing())
-        return [self._rest.body.root, *(root for root in playing if root is not None)]
+    def _roots(self) -> Iterator[Vec3]:
+        """Yield the displacements of HumanoidRoot at rest and in playing motions."""
+        yield self._rest.body.root
+        yield from (unit.shown.root for unit in self._playing() if unit.shown.root is not None)
 
     def _base(self) -> Layer:
         if self._base_layer is None or self._base_layer.rotations is not self._rest.pose:

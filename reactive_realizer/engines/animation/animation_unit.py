@@ -132,6 +132,7 @@ class AnimationUnit(PlanUnit):
         }
         self._play(planned, keys)
         self.notes = planned.notes
+        self.planning_work = motion.planning_work
         self.height = LOWEST
         self._fault_reported = False
         self._candidates = candidates
@@ -176,7 +177,9 @@ class AnimationUnit(PlanUnit):
         start, end = self.start_and_end
         time = None if start is None or end is None else end - start
         chosen = select(self._usable(), taken, time)
-        if (claimed := self._context.claimed(self)) & chosen.motion.resources:
+        needed = chosen.motion.resources
+        free = needed.isdisjoint(taken)  # else, no candidate is
+        if needed and free and (claimed := self._context.claimed(self)) & needed:
             other = select(self._usable(), taken | claimed, time)
             chosen = chosen if other.motion.resources & (taken | claimed) else other
         if chosen.motion is not self.motion:

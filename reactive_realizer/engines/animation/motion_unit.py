@@ -140,6 +140,7 @@ class MotionUnit(ABC):
         steps: whether the feet may turn the figure for it (`step_turn`).
         fault: that occurred while playing; None if there is none.
         notes: faults of parts that are left out.
+        planning_work: what it takes to make it (`PlanUnit.planning_work`).
     """
 
     kind: LayerKind
@@ -166,6 +167,7 @@ class MotionUnit(ABC):
     joined: GlobalTime | None = None
     fault: Fault | None = None
     notes: tuple[Fault, ...] = ()
+    planning_work: int = 16
 
     @property
     def parameter_names(self) -> frozenset[str]:

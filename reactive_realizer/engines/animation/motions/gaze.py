@@ -105,6 +105,7 @@ class GazeMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.GAZE
+    planning_work = 25
     joints = frozenset(joint for joints in JOINT_GROUPS.values() for joint in joints)
 
     def __init__(

@@ -52,6 +52,7 @@ class NoiseMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.ADDITIVE
+    planning_work = 50
     fixed = frozenset({JOINT})
     preferred_duration = 1.0
 

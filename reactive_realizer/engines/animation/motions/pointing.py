@@ -62,6 +62,7 @@ class PointingMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.GESTURE
+    planning_work = 80
     fixed = frozenset({HAND, *RANGES})
 
     def __init__(

@@ -61,6 +61,7 @@ class PostureMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.POSTURE
+    planning_work = 150
     resources = frozenset({Resource.STANCE})
     group = "posture"
     predictability = Predictability.ONCE_STARTED
