@@ -7,12 +7,16 @@ from typing import Any
 import numpy as np
 import pytest
 import pytest_asyncio
+from numpy.typing import NDArray
 
+from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.bml.names import OWN
 from reactive_realizer.embodiment.audio import AudioMove, AudioStart, AudioStop
 from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
+from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.engines.speech.streamed import stream_aligner
 from reactive_realizer.realizer.inputs import TickInputs
 from reactive_realizer.realizer.session import replay
@@ -225,6 +229,66 @@ async def test_words_and_lips_are_found_in_the_sound_before_they_are_heard(spoke
             if phoneme.symbol in {"m", "p", "b"}:
                 closed = min(weight for time, weight in jaw.items() if abs(time - phoneme.start) < 0.08)
                 assert closed < 0.05, phoneme
+
+
+@pytest.mark.speech
+@pytest.mark.align
+@pytest.mark.parametrize(
+    ("patience", "chunk"), [(60.0, 0.1), (0.0, 10.0)], ids=["as it arrives", "when the search is late"]
+)
+async def test_without_a_text_the_lips_follow_the_sounds_more_than_loudness(
+    spoken: Utterance, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, patience: float, chunk: float
+) -> None:
+    human = tmp_path / "still.toml"
+    human.write_text("[character.alice]\nidle = false\n", encoding="utf-8")
+    monkeypatch.setattr(stream_aligner, "_SOON", patience)
+    found = await lips_without_text(human, spoken, chunk)
+    monkeypatch.setattr(stream_aligner, "find_spec", lambda _: None)
+    loud = await lips_without_text(human, spoken, chunk)
+    binding = VisemeBinding.read((), MOUTH, Assets())
+    track = LipSyncTrack(spoken, binding)
+    times = np.arange(0.1, spoken.duration - 0.1, 0.02)
+    meant = np.array([[track.weights(time).get(morph, 0.0) for morph in MOUTH] for time in times])
+    near, far = (float(np.abs(each(times) - meant).mean()) for each in (found, loud))
+    assert near < 0.85 * far, (near, far)
+
+
+MOUTH = ("jawOpen", "mouthPucker", "mouthPressLeft")
+
+
+async def lips_without_text(
+    human: Path, spoken: Utterance, chunk: float
+) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """The mouth at times of a speech that is streamed without its text, (T, 3)."""
+    async with open_pilot(SceneOptions(human, voice="text", verify=True)) as pilot:
+        pilot.watch()
+        pilot.block("b", speech("", '<rr:stream name="x" rate="22050"/>'))
+        size = 2 * round(22050 * chunk)
+        for first in range(0, len(spoken.audio), size):
+            pilot.stream("x", spoken.audio[first : first + size], end=first + size >= len(spoken.audio))
+            await pilot.advance(chunk / 2 if chunk < 1.0 else 0.2)
+        await pilot.advance(spoken.duration + 0.5)
+        assert warnings(pilot) == []
+        start = pilot.feedback.time("b:s:start")
+        morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
+        frames = pilot.frames["alice"]
+        shown = np.array([[frame.weights[morphs.index(name)] for name in MOUTH] for frame in frames])
+        at = np.array([frame.time - start for frame in frames])
+    return lambda times: np.array([np.interp(times, at, column) for column in shown.T]).T
+
+
+async def test_when_the_search_for_sounds_fails_the_lips_follow_loudness(
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stream_aligner, "find_spec", lambda _: True)
+    monkeypatch.setattr(stream_aligner, "_WORKER", "reactive_realizer.errors")  # a process that ends at once
+    pilot.block("b", speech(""))
+    pilot.stream("x", voice(1.0), end=True)
+    await pilot.advance(2)
+    morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs
+    assert max(frame.weights[morphs.index("jawOpen")] for frame in pilot.frames["alice"]) > 0.1
+    assert warnings(pilot) == []
+    assert pilot.feedback.status("b") == "DONE"
 
 
 @pytest_asyncio.fixture

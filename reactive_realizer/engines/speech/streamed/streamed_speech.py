@@ -1,6 +1,7 @@
 """Speech whose sound a client streams, as an utterance that grows."""
 
-from collections.abc import AsyncGenerator, Sequence
+import logging
+from collections.abc import AsyncGenerator, Awaitable, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -15,6 +16,8 @@ from reactive_realizer.engines.speech.streamed.sound_lips import SoundLips
 from reactive_realizer.engines.speech.streamed.stream_aligner import StreamAligner
 from reactive_realizer.engines.speech.streamed.word_times import GivenWords, word_begins
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
+
+_log = logging.getLogger(__name__)
 
 _AHEAD = 0.3
 """The shortest time from what has arrived to the expected end, s, as long as more may arrive."""
@@ -49,7 +52,11 @@ async def spoken_stream(speech: StreamedSpeech, stream: SpeechStream) -> AsyncGe
         while not last:
             piece = await stream.next_piece()
             last = piece.last
-            yield Part(await growing.add(piece), last)
+            recording = await growing.add(piece)
+            if last and growing.behind:
+                yield Part(recording, last=False)
+                recording = await growing.catch_up()
+            yield Part(recording, last)
     finally:
         stream.close()
         await growing.close()
@@ -59,7 +66,7 @@ class _GrowingSpeech:
     """What is known of a streamed speech.
 
     The times of words come from the client, or else are found in the sound, or else are estimated. The lips follow the
-    sounds of the words that are found, and elsewhere how loud and bright the sound is.
+    sounds of the words that are found, then those that are heard, and elsewhere how loud and bright the sound is.
     """
 
     def __init__(self, speech: StreamedSpeech) -> None:
@@ -72,21 +79,28 @@ class _GrowingSpeech:
         self._lips = SoundLips(self._levels)
         self._audio = b""
         self._aligner: StreamAligner | None = None
-        self._finding = False
-        """Whether words are being looked for."""
+        self._listening = False
+        """Whether words and sounds are being looked for."""
         self._note: Fault | None = None
 
+    @property
+    def behind(self) -> bool:
+        """Whether sounds are still being looked for in what has arrived."""
+        return self._listening and self._aligner is not None and self._aligner.behind
+
     async def open(self) -> None:
-        """Start to look for the words of the text, if it has any."""
-        try:
-            if self._words:
-                self._aligner = await StreamAligner.start(self._words, self._speech.stream.rate, self._name)
-                self._finding = True
-        except RealizerError as problem:
-            self._note = problem.fault
+        """Start to look for sounds, and for the words of the text, if it has any."""
+        for words in (self._words, ()) if self._words else ((),):
+            try:
+                self._aligner = await StreamAligner.start(words, self._speech.stream.rate, self._name)
+                self._listening = True
+                return
+            except RealizerError as problem:
+                if words:
+                    self._note = problem.fault
 
     async def close(self) -> None:
-        """Stop looking for words."""
+        """Stop looking for words and sounds."""
         if self._aligner is not None:
             await self._aligner.close()
 
@@ -100,8 +114,10 @@ class _GrowingSpeech:
         self._levels.add(piece.samples)
         if not self._audio:
             raise RealizerError(NoSound(stream=self._name))
-        if self._finding and self._aligner is not None:
-            await self._align(self._aligner, piece)
+        if self._listening and self._aligner is not None:
+            await self._listen(self._aligner.hear(piece.samples, last=piece.last))
+            if piece.last and self._finding_words and len(self._aligner.begins) < len(self._words):
+                self._note = CannotAlign(file=f"the stream '{self._name}'", reason="the text does not fit it")
         try:
             self._given.add(piece.words)
             if self._given.begins and isinstance(self._note, NoAligner | CannotAlign):
@@ -112,16 +128,24 @@ class _GrowingSpeech:
             self._note = HalfSample(stream=self._name)
         return Recording(self._utterance(ended=piece.last), self._note)
 
-    async def _align(self, aligner: StreamAligner, piece: SoundPiece) -> None:
+    async def catch_up(self) -> Recording:
+        """The speech that has ended, with the sounds that were found late."""
+        if self._aligner is not None:
+            await self._listen(self._aligner.catch_up())
+        return Recording(self._utterance(ended=True), self._note)
+
+    async def _listen(self, hearing: Awaitable[None]) -> None:
         try:
-            await aligner.hear(piece.samples, last=piece.last)
-            if piece.last and len(aligner.begins) < len(self._words):
-                reason = "the text does not fit it"
-                self._note = CannotAlign(file=f"the stream '{self._name}'", reason=reason)
+            await hearing
         except RealizerError as problem:
-            self._note = problem.fault
-            self._finding = False
-            await aligner.close()
+            if self._finding_words:
+                self._note = problem.fault
+            else:
+                _log.warning(
+                    "the lips of the stream '%s' follow its loudness: the search for sounds failed", self._name
+                )
+            self._listening = False
+            await self.close()
 
     def _utterance(self, *, ended: bool) -> Utterance:
         made = len(self._audio) / 2 / self._speech.stream.rate
@@ -141,13 +165,16 @@ class _GrowingSpeech:
         spoken = SpokenTime(self._levels.loudness, made)
         found = self._given.begins or (self._aligner.begins if self._aligner is not None else ())
         begins, end = word_begins(self._words, found, spoken, ended=ended)
-        if ended or not (self._given.begins or self._finding):
+        if ended or not (self._given.begins or self._finding_words):
             return begins, end
         # A word that is neither given nor found has not been heard.
         delay = max(0.0, made - (begins[len(found)] if len(found) < len(begins) else end))
         return [*begins[: len(found)], *(begin + delay for begin in begins[len(found) :])], end + delay
 
+    @property
+    def _finding_words(self) -> bool:
+        return self._listening and self._aligner is not None and self._aligner.with_words
+
     def _phonemes(self) -> list[Phoneme]:
-        if self._aligner is None:
-            return self._lips.phonemes(0.0)
-        return [*self._aligner.phonemes, *self._lips.phonemes(self._aligner.settled)]
+        found = self._aligner.phonemes if self._aligner is not None else []
+        return [*found, *self._lips.phonemes(found[-1].start + found[-1].duration if found else 0.0)]
