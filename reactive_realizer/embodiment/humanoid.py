@@ -111,7 +111,8 @@ class Humanoid:
         smooth = self._inertialization(composed.shown, time)
         self._passed, self._time, self._wanted = time - self._time, time, composed.shown
         if self._limit is None:
-            self._limit, self._shown = SpeedLimit(smooth), smooth
+            # Nothing was shown before: the figure does not come from elsewhere, however far its body at rest is away.
+            self._limit, self._shown, self._passed = SpeedLimit(smooth), smooth, 0.0
         else:
             self._before, self._place_before = self._shown, self._shown_place
             if self._forced:
