@@ -1,7 +1,6 @@
 """Parts of rotations: the twist about the long axis of a segment, y, and the swing that follows it."""
 
 import math
-from typing import NamedTuple
 
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
@@ -10,28 +9,26 @@ _NOTHING = 1e-12
 """A length below which a vector has no direction."""
 
 
-class SwingTwist(NamedTuple):
-    """A twist about y, followed by a swing about an axis in the x-z plane: its rotation vector, rad."""
+def swing_and_twist(rotation: Quat) -> Vec3:
+    """Return the two parts of a rotation, both the short way round.
 
-    x: float
-    twist: float
-    z: float
-
-    def long_way(self) -> "SwingTwist":
-        """Return the same rotation with a swing the long way round."""
-        factor = 1.0 - 2.0 * math.pi / max(math.hypot(self.x, self.z), _NOTHING)
-        return SwingTwist(self.x * factor, self.twist, self.z * factor)
-
-
-def swing_and_twist(rotation: Quat) -> SwingTwist:
-    """Return the two parts of a rotation, both the short way round."""
+    The twist about y comes first, and is the second component, rad. The swing about an axis in the x-z plane follows;
+    its rotation vector has the other two components, rad.
+    """
     w, x, y, z = rotation
-    cosine = max(math.hypot(w, y), _NOTHING)
+    cosine = max(math.sqrt(w * w + y * y), _NOTHING)
     c, s = w / cosine, y / cosine
     across, along = x * c + z * s, z * c - x * s
-    sine = max(math.hypot(across, along), _NOTHING)
+    sine = max(math.sqrt(across * across + along * along), _NOTHING)
     factor = 2.0 * math.atan2(sine, cosine) / sine
-    return SwingTwist(factor * across, 2.0 * math.atan2(math.copysign(1.0, c) * s, abs(c)), factor * along)
+    return (factor * across, 2.0 * math.atan2(math.copysign(1.0, c) * s, abs(c)), factor * along)
+
+
+def long_way(parts: Vec3) -> Vec3:
+    """Return the parts of the same rotation with a swing the long way round."""
+    x, twist, z = parts
+    factor = 1.0 - 2.0 * math.pi / max(math.hypot(x, z), _NOTHING)
+    return (x * factor, twist, z * factor)
 
 
 def turned_about_y(vector: Vec3, angle: float) -> Vec3:

@@ -39,8 +39,11 @@ _FASTEST = 1000.0
 _LYING = 0.5
 """Height of the center of mass of a figure that has fallen, in multiples of its height when it stands."""
 
-_PERIOD = 0.01
-"""Time for which the torques of springs and controllers stay, s: a tick. Loose limbs are unstable at twice this."""
+_PERIOD = 0.02
+"""Time for which what controllers exert stays, s: a frame."""
+
+_LIMIT_PERIOD = 0.01
+"""The same of the springs at the limits of joints, s. Loose limbs are unstable at twice this."""
 
 FEET = tuple(f"{side}_ankle" for side in SIDES)
 
@@ -69,7 +72,7 @@ class Simulation:
         mass: of the figure, kg.
         inertia: that turns about each degree of freedom in the default pose, kg m^2, or kg, (nv,).
         substep: time of a step, s.
-        period: time for which the torques of springs and controllers stay, s.
+        period: time for which what controllers exert stays, s.
         touching: indices of the geoms that touch, at the beginning of the present period.
         reaction: factor of what moving kinematic limbs exert on the physical segments to which they are attached, apart
             from their weight (k of thesis 3.1). It is 1 unless a controller sets it, in each period anew.
@@ -96,15 +99,15 @@ class Simulation:
         self._skeleton = skeleton
         self.inertia: Sequence[float] = inertia(self.model).tolist()
         self.substep = substep
-        self.period = max(1, round(_PERIOD / substep)) * substep
+        self.period, self._limit_period = (max(1, round(time / substep)) * substep for time in (_PERIOD, _LIMIT_PERIOD))
         self.touching: Collection[int] = ()
         self._links = {joint: Links(skeleton, joint) for joint in self.joints}
         addresses = zip(self.joints, self.model.jnt_qposadr.tolist(), self.model.jnt_dofadr.tolist(), strict=True)
         self._addresses = {joint: (position, degree) for joint, position, degree in addresses}
+        self._greatest = {joint: max(self.inertia[self.degrees(joint)]) for joint in self.joints}
         self._damping, self._limited = self.model.dof_damping.tolist(), self.model.jnt_limited.copy()
         self._wanted, self._present = self.data.qpos.copy(), self.data.qpos.tolist()
-        self._speeds, self._pressed = np.zeros(self.model.nv), np.zeros(self.model.nv)
-        self._jacobian, self._untwisted = np.zeros((3, self.model.nv)), np.zeros(3)
+        self._speeds = np.zeros(self.model.nv)
         self._bodies = {joint: int(self.model.body(joint).id) for joint in self.joints}
         self._friction = StaticFriction(self.model, [self._bodies[foot] for foot in FEET if foot in self._bodies])
         self._pushes: list[_Push] = []
@@ -200,8 +203,7 @@ class Simulation:
         for done in range(0, steps, most):
             ahead = min(most, steps - done)
             self._push(ahead * self.substep)
-            self._exert(body, controllers, torques)
-            self._step(ahead, accelerate=done == 0)
+            self._act(body, controllers, torques, ahead, accelerate=done == 0)
         data.qpos[self._positions], data.qvel[self._degrees] = wanted, self._speeds[self._degrees]
         if not (np.isfinite(data.qpos).all() and abs(data.qvel).max() < _FASTEST):
             raise Exploded
@@ -214,25 +216,38 @@ class Simulation:
         for push in self._pushes:
             data.xfrc_applied[push.body, :3] += min(1.0, (push.until - data.time) / duration) * push.force
 
-    def _exert(
-        self, body: Body, controllers: Sequence[PhysicalController], torques: NDArray[np.float64] | None
+    def _act(
+        self,
+        body: Body,
+        controllers: Sequence[PhysicalController],
+        torques: NDArray[np.float64] | None,
+        steps: int,
+        *,
+        accelerate: bool,
     ) -> None:
-        """Set the torques that the present state causes, and add its forces, for a period."""
-        model, data, own = self.model, self.data, self._degrees
-        self.touching = frozenset(data.contact.geom.ravel().tolist())
-        self._friction.act(data, self.touching)
-        forces = [0.0] * model.nv if torques is None else torques.tolist()
+        """Simulate a period with what the present state has controllers exert."""
+        self.touching = frozenset(self.data.contact.geom.ravel().tolist())
+        self._friction.act(self.data, self.touching)
+        forces = [0.0] * self.model.nv if torques is None else torques.tolist()
         damping = self._damping.copy()
-        self._present = data.qpos.tolist()
-        for joint, spring in self._limits.items():
-            spring.act(self._turned(joint), self.period, self._addresses[joint][1], forces, damping)
+        self._present = self.data.qpos.tolist()
         self.reaction = 1.0
         for controller in controllers:
             controller.act(self, body, forces, damping)
         self._scale_reactions()
-        applied = data.qfrc_applied
-        model.dof_damping[:], applied[:] = damping, forces
-        model.dof_damping[own] = applied[own] = 0.0
+        most = round(self._limit_period / self.substep)
+        for done in range(0, steps, most):
+            self._exert(forces.copy(), damping.copy())
+            self._step(min(most, steps - done), accelerate=accelerate and done == 0)
+
+    def _exert(self, forces: list[float], damping: list[float]) -> None:
+        """Set torques and damping, to which the springs at the limits of joints add theirs in the present state."""
+        own = self._degrees
+        self._present = self.data.qpos.tolist()
+        for joint, spring in self._limits.items():
+            spring.act(self._turned(joint), self._limit_period, self._addresses[joint][1], forces, damping)
+        self.model.dof_damping[:], self.data.qfrc_applied[:] = damping, forces
+        self.model.dof_damping[own] = self.data.qfrc_applied[own] = 0.0
 
     def _step(self, steps: int, *, accelerate: bool) -> None:
         """Simulate some steps with the same torques; kinematic joints get their speeds in the first, or have them."""
@@ -308,23 +323,27 @@ class Simulation:
 
     def center_of_mass(self) -> tuple[Vec3, Vec3]:
         """Return the place of the center of mass of the figure, m, and its velocity, m/s, in MuJoCo's world."""
-        mujoco.mj_jacSubtreeCom(self.model, self.data, self._jacobian, _ROOT_BODY)
         x, y, z = self.data.subtree_com[_ROOT_BODY].tolist()
-        vx, vy, vz = (self._jacobian @ self.data.qvel).tolist()
+        vx, vy, vz = self.data.subtree_linvel[_ROOT_BODY].tolist()
         return (x, y, z), (vx, vy, vz)
 
-    def pressed(self, body: int, point: Vec3, force: Vec3) -> list[float]:
-        """Return the torques on all degrees of freedom, Nm or N, (nv,), that a force on a body amounts to.
+    def press(self, body: int, point: Vec3, force: Vec3) -> None:
+        """Have the joints from the root to a body press on the ground in this period, by the torques -J^T F.
+
+        J is the Jacobian of the point in these joints. The force on the body, and its opposite at the same point of the
+        root, amount to these torques, and MuJoCo computes them in each step.
 
         Args:
             body: MuJoCo's index.
-            point: at which the force acts, m, in MuJoCo's world.
-            force: N, in MuJoCo's world.
+            point: at which the ground is pressed, m, in MuJoCo's world.
+            force: that the ground should exert, N, in MuJoCo's world.
         """
-        self._pressed[:] = 0.0
-        mujoco.mj_applyFT(self.model, self.data, np.array(force), self._untwisted, np.array(point), body, self._pressed)
-        torques: list[float] = self._pressed.tolist()
-        return torques
+        fx, fy, fz = force
+        for index, sign in ((body, -1.0), (_ROOT_BODY, 1.0)):
+            x, y, z = self.data.xipos[index].tolist()
+            x, y, z = point[0] - x, point[1] - y, point[2] - z
+            wrench = fx, fy, fz, y * fz - z * fy, z * fx - x * fz, x * fy - y * fx
+            self.data.xfrc_applied[index] += [sign * part for part in wrench]
 
     def hold(
         self, joint: str, goal: Body, frequencies: Vec3, ratio: float, torques: list[float], damping: list[float]
@@ -340,7 +359,7 @@ class Simulation:
             torques: to add to, (nv,).
             damping: to add to, (nv,).
         """
-        inertia = max(self._about(joint))
+        inertia = self._greatest[joint]
         x, y, z = frequencies
         stiffness = (inertia * x * x, inertia * y * y, inertia * z * z)
         dampers = scale(frequencies, 2.0 * ratio * inertia)

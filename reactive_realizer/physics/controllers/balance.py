@@ -44,7 +44,7 @@ _LOAD = (0.3, 2.0)
 _FRICTION = 0.7
 """Limit of the horizontal force as a share of the vertical one; soles slip at somewhat more."""
 
-_SOLE = (0.85, 0.0, 0.97)
+_SOLE = (0.85, 0.97)
 """Share of the half width and length of a sole within which the center of pressure stays."""
 
 _HIPS = (0.7, 0.985)
@@ -109,8 +109,8 @@ class BalanceController(PhysicalController):
         self._move_goals(simulation, _middle(soles))
         if any(sole.touches for sole in soles):
             force, pressure = self._support(simulation, soles, self._uprighting(simulation, goal))
-            for sole, leg, part in zip(soles, _LEGS, _shared(soles, pressure), strict=True):
-                _press(simulation, sole, leg, scale(force, part.share), part.point, torques)
+            for sole, part in zip(soles, _shared(soles, pressure), strict=True):
+                simulation.press(sole.body, part.point, scale(force, part.share))
         held, ratio = _POSE * math.sqrt(self.parameters[STIFFNESS]), self.parameters[DAMPING]
         for sole, leg in zip(soles, _LEGS, strict=True):
             # The bend of a leg that stands follows from the height of the pelvis.
@@ -190,52 +190,41 @@ def _carried(x: float, y: float, up: float) -> Vec3:
     return (grip * x, grip * y, up)
 
 
-def _press(
-    simulation: "Simulation", sole: "_Sole", leg: tuple[str, ...], force: Vec3, point: Vec3, torques: list[float]
-) -> None:
-    """Add the torques of the joints of a leg that press a force on the ground at a point of its sole."""
-    pressed = simulation.pressed(sole.body, point, force)
-    for joint in leg:
-        degrees = simulation.degrees(joint)
-        for degree in range(degrees.start, degrees.stop):
-            torques[degree] -= pressed[degree]
-
-
 class _Sole(NamedTuple):
     """A sole in MuJoCo's world.
 
     Attributes:
         body: index of the foot.
         center: m.
-        axes: of the foot, unit vectors.
-        reach: from the center to the farthest centers of pressure, along these axes, m.
+        across: unit vector to its side.
+        along: unit vector to its front.
+        reach: from the center to the farthest centers of pressure, across and along, m.
         touches: whether the foot touches the ground, more with its sole than with its side.
     """
 
     body: int
     center: Vec3
-    axes: tuple[Vec3, Vec3, Vec3]
-    reach: Vec3
+    across: Vec3
+    along: Vec3
+    reach: tuple[float, float]
     touches: bool
 
     def within(self, point: Vec3) -> Vec3:
         """Return the point of the sole that is nearest to a point."""
-        off, nearest = subtract(point, self.center), self.center
-        for axis, reach in zip(self.axes, self.reach, strict=True):
-            nearest = add(nearest, scale(axis, min(max(dot(axis, off), -reach), reach)))
-        return nearest
+        off, (wide, long) = subtract(point, self.center), self.reach
+        across = scale(self.across, min(max(dot(self.across, off), -wide), wide))
+        return add(add(self.center, across), scale(self.along, min(max(dot(self.along, off), -long), long)))
 
 
 def _sole(simulation: "Simulation", joint: str) -> _Sole:
-    model, data, body = simulation.model, simulation.data, simulation.body_of(joint)
-    geom = int(model.body_geomadr[body])
-    wide, high, long = model.geom_size[geom].tolist()
+    data, body = simulation.data, simulation.body_of(joint)
+    geom = int(simulation.model.body_geomadr[body])
+    wide, high, long = simulation.model.geom_size[geom].tolist()
     xx, yx, zx, xy, yy, zy, xz, yz, zz = data.geom_xmat[geom].tolist()
-    axes = (xx, xy, xz), (yx, yy, yz), (zx, zy, zz)
     x, y, z = data.geom_xpos[geom].tolist()
-    center = subtract((x, y, z), scale(axes[1], high))
-    reach = (_SOLE[0] * wide, _SOLE[1] * high, _SOLE[2] * long)
-    return _Sole(body, center, axes, reach, geom in simulation.touching and axes[1][2] > _FLAT)
+    center = (x - high * yx, y - high * yy, z - high * yz)
+    touches = geom in simulation.touching and yz > _FLAT
+    return _Sole(body, center, (xx, xy, xz), (zx, zy, zz), (_SOLE[0] * wide, _SOLE[1] * long), touches)
 
 
 def _middle(soles: list[_Sole]) -> Vec3:
