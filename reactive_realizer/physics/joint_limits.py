@@ -75,12 +75,12 @@ class LimitSpring:
         torques[first + 1] -= of_y * y
         torques[first + 2] -= of_z * z
         damped = period + _DAMPED / _FREQUENCY
-        if beyond[0]:
-            damping[first] += of_x * damped
+        along = math.cos(parts[1]) ** 2
+        x, z = float(beyond[0] != 0.0), float(beyond[2] != 0.0)
+        damping[first] += of_x * damped * (along * x + (1.0 - along) * z)
         if beyond[1]:
             damping[first + 1] += of_y * damped
-        if beyond[2]:
-            damping[first + 2] += of_z * damped
+        damping[first + 2] += of_z * damped * (along * z + (1.0 - along) * x)
 
     def _beyond(self, parts: Vec3) -> Vec3:
         """Return how far a rotation is beyond the bounds, rad, in the axes after its twist.

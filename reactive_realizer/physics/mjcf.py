@@ -77,8 +77,6 @@ def mjcf(skeleton: Skeleton, weight: float | None = None) -> bytes:
             mass = scale * segment.mass
             _add_geom(elements[segment.joint], shape(skeleton, segment.joint, mass / segment.density), mass)
     _damp(model, joints[1:])
-    # It has MuJoCo compute the velocities of centers of mass in each step.
-    etree.SubElement(etree.SubElement(model, "sensor"), "subtreelinvel", body=ROOT)
     return etree.tostring(model, pretty_print=True)
 
 

@@ -40,10 +40,7 @@ _LYING = 0.5
 """Height of the center of mass of a figure that has fallen, in multiples of its height when it stands."""
 
 _PERIOD = 0.02
-"""Time for which what controllers exert stays, s: a frame."""
-
-_LIMIT_PERIOD = 0.01
-"""The same of the springs at the limits of joints, s. Loose limbs are unstable at twice this."""
+"""Time for which what springs and controllers exert stays, s: a frame."""
 
 FEET = tuple(f"{side}_ankle" for side in SIDES)
 
@@ -62,8 +59,9 @@ class Simulation:
     move by torques, gravity, contact with the floor, and what the moving kinematic joints exert on them. This solves
     the hybrid equation of motion (thesis 3.1) exactly: the accelerations of kinematic joints and the torques of
     physical joints are known, and the others follow. A kinematic joint has an armature beside which all other inertia
-    is negligible, and the torque that accelerates this armature as wanted; the coupling of both kinds of joints is in
-    MuJoCo's inertia matrix. Unlike the thesis's method (3.2 to 3.7), this needs no accelerations of an earlier step.
+    is negligible, and a servo whose torque accelerates this armature to the wanted velocity in the first step; the
+    coupling of both kinds of joints is in MuJoCo's inertia matrix. Unlike the thesis's method (3.2 to 3.7), this needs
+    no accelerations of an earlier step.
 
     Attributes:
         joints: of the segments, the root first.
@@ -72,7 +70,7 @@ class Simulation:
         mass: of the figure, kg.
         inertia: that turns about each degree of freedom in the default pose, kg m^2, or kg, (nv,).
         substep: time of a step, s.
-        period: time for which what controllers exert stays, s.
+        period: time for which what springs and controllers exert stays, s.
         touching: indices of the geoms that touch, at the beginning of the present period.
         reaction: factor of what moving kinematic limbs exert on the physical segments to which they are attached, apart
             from their weight (k of thesis 3.1). It is 1 unless a controller sets it, in each period anew.
@@ -89,7 +87,7 @@ class Simulation:
             substep: time of a step, s.
             floating: whether it floats freely, without gravity and floor.
         """
-        self.model = mujoco.MjModel.from_xml_string(mjcf(skeleton, weight).decode())
+        self.model = _model(skeleton, weight)
         self.model.opt.timestep = substep
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         if floating:
@@ -99,7 +97,7 @@ class Simulation:
         self._skeleton = skeleton
         self.inertia: Sequence[float] = inertia(self.model).tolist()
         self.substep = substep
-        self.period, self._limit_period = (max(1, round(time / substep)) * substep for time in (_PERIOD, _LIMIT_PERIOD))
+        self.period = max(1, round(_PERIOD / substep)) * substep
         self.touching: Collection[int] = ()
         self._links = {joint: Links(skeleton, joint) for joint in self.joints}
         addresses = zip(self.joints, self.model.jnt_qposadr.tolist(), self.model.jnt_dofadr.tolist(), strict=True)
@@ -148,6 +146,10 @@ class Simulation:
         model.dof_armature[self._degrees] = _ARMATURE
         for joint in self._kinematic:
             model.joint(joint).limited = 0
+        # A servo exerts the torque gain * (wanted - present velocity): the wanted one is there after one step.
+        gain = _ARMATURE / self.substep
+        model.actuator_gainprm[:, 0] = model.actuator_biasprm[:, 2] = 0.0
+        model.actuator_gainprm[self._degrees, 0], model.actuator_biasprm[self._degrees, 2] = gain, -gain
 
     def segments(self, joints: Iterable[str]) -> frozenset[str]:
         """Return the joints of the segments that any of some joints turns."""
@@ -199,11 +201,13 @@ class Simulation:
         self._wanted[self._positions] = wanted
         # MuJoCo's semi-implicit Euler integrator ends at the wanted positions with these velocities.
         mujoco.mj_differentiatePos(model, self._speeds, steps * self.substep, data.qpos, self._wanted)
+        data.ctrl[:] = self._speeds
         most = round(self.period / self.substep)
         for done in range(0, steps, most):
             ahead = min(most, steps - done)
             self._push(ahead * self.substep)
-            self._act(body, controllers, torques, ahead, accelerate=done == 0)
+            self._exert(body, controllers, torques)
+            mujoco.mj_step(model, data, ahead)
         data.qpos[self._positions], data.qvel[self._degrees] = wanted, self._speeds[self._degrees]
         if not (np.isfinite(data.qpos).all() and abs(data.qvel).max() < _FASTEST):
             raise Exploded
@@ -216,50 +220,24 @@ class Simulation:
         for push in self._pushes:
             data.xfrc_applied[push.body, :3] += min(1.0, (push.until - data.time) / duration) * push.force
 
-    def _act(
-        self,
-        body: Body,
-        controllers: Sequence[PhysicalController],
-        torques: NDArray[np.float64] | None,
-        steps: int,
-        *,
-        accelerate: bool,
+    def _exert(
+        self, body: Body, controllers: Sequence[PhysicalController], torques: NDArray[np.float64] | None
     ) -> None:
-        """Simulate a period with what the present state has controllers exert."""
-        self.touching = frozenset(self.data.contact.geom.ravel().tolist())
-        self._friction.act(self.data, self.touching)
-        forces = [0.0] * self.model.nv if torques is None else torques.tolist()
+        """Set the torques that the present state causes, and add its forces, for a period."""
+        model, data, own = self.model, self.data, self._degrees
+        self.touching = frozenset(data.contact.geom.ravel().tolist())
+        self._friction.act(data, self.touching)
+        forces = [0.0] * model.nv if torques is None else torques.tolist()
         damping = self._damping.copy()
-        self._present = self.data.qpos.tolist()
+        self._present = data.qpos.tolist()
+        for joint, spring in self._limits.items():
+            spring.act(self._turned(joint), self.period, self._addresses[joint][1], forces, damping)
         self.reaction = 1.0
         for controller in controllers:
             controller.act(self, body, forces, damping)
         self._scale_reactions()
-        most = round(self._limit_period / self.substep)
-        for done in range(0, steps, most):
-            self._exert(forces.copy(), damping.copy())
-            self._step(min(most, steps - done), accelerate=accelerate and done == 0)
-
-    def _exert(self, forces: list[float], damping: list[float]) -> None:
-        """Set torques and damping, to which the springs at the limits of joints add theirs in the present state."""
-        own = self._degrees
-        self._present = self.data.qpos.tolist()
-        for joint, spring in self._limits.items():
-            spring.act(self._turned(joint), self._limit_period, self._addresses[joint][1], forces, damping)
-        self.model.dof_damping[:], self.data.qfrc_applied[:] = damping, forces
-        self.model.dof_damping[own] = self.data.qfrc_applied[own] = 0.0
-
-    def _step(self, steps: int, *, accelerate: bool) -> None:
-        """Simulate some steps with the same torques; kinematic joints get their speeds in the first, or have them."""
-        model, data, own = self.model, self.data, self._degrees
-        if accelerate:
-            data.qfrc_applied[own] = _ARMATURE * (self._speeds[own] - data.qvel[own]) / self.substep
-            mujoco.mj_step(model, data)
-            data.qfrc_applied[own] = 0.0
-            steps -= 1
-        data.qvel[own] = self._speeds[own]
-        if steps:
-            mujoco.mj_step(model, data, steps)
+        model.dof_damping[:], data.qfrc_applied[:] = damping, forces
+        model.dof_damping[own] = data.qfrc_applied[own] = 0.0
 
     def _scale_reactions(self) -> None:
         """Add what the factor `reaction` changes in what kinematic limbs exert in the next period.
@@ -419,6 +397,21 @@ class Simulation:
             else:
                 coordinates += rotation
         return coordinates
+
+
+def _model(skeleton: Skeleton, weight: float | None) -> mujoco.MjModel:
+    """Return the model of a figure with a servo for each degree of freedom, in their order.
+
+    A sensor has MuJoCo compute velocities of centers of mass in each step.
+    """
+    spec = mujoco.MjSpec.from_string(mjcf(skeleton, weight).decode())
+    for joint in spec.joints:
+        for axis in range(6 if joint.type == mujoco.mjtJoint.mjJNT_FREE else 3):
+            servo = spec.add_actuator(target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+            servo.gear = [float(axis == each) for each in range(6)]
+            servo.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+    spec.add_sensor(type=mujoco.mjtSensor.mjSENS_SUBTREELINVEL, objtype=mujoco.mjtObj.mjOBJ_BODY, objname=ROOT)
+    return spec.compile()
 
 
 class _Push(NamedTuple):

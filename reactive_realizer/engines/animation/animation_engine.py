@@ -149,6 +149,7 @@ class AnimationEngine(DefaultEngine):
         self._late_hands = LateHands(context.humanoid)
         self._physical_figure = PhysicalFigure(context.humanoid)
         self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
+        self._standing = 1.0
         self._walk = Walk(context.humanoid)
         self._waiting_arms = WaitingArms(self._release)
         self._trunk_following = TrunkFollowing(context.humanoid.avatar.skeleton)
@@ -304,7 +305,9 @@ class AnimationEngine(DefaultEngine):
         walking: tuple[Layer, ...] = self._isolated(
             "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time, playing), self._rest.body), ()
         )
-        standing = standing_degree(self._walk.stiffness - self._humanoid.body.root[1])
+        if not self._balances():  # forces sway the pelvis: its animation stays as it was
+            self._standing = standing_degree(self._walk.stiffness - self._humanoid.body.root[1])
+        standing = self._standing
         layers = (
             self._base(),
             *walking,
@@ -370,9 +373,10 @@ class AnimationEngine(DefaultEngine):
     @property
     def needs_frames(self) -> bool:
         """Whether the figure is simulated, or walks: what happens then depends on what happened before."""
-        steps = any(unit.motion.steps for unit in self._playing())
-        walks = self._walk.active or steps or bool(self._walks())
-        return self._physical_figure.active or bool(self._controlling(self._playing())) or walks
+        if self._physical_figure.active or self._walk.active:
+            return True
+        playing = self._playing()
+        return bool(self._controlling(playing) or self._walks()) or any(unit.motion.steps for unit in playing)
 
     def requests(self, tick: Tick) -> tuple[MovePoints, ...]:
         """Return the moves of the ends of locomotion: the figure arrives earlier or later than expected."""

@@ -26,13 +26,16 @@ class CompoundController(PhysicalController):
         self._required, self._parts = required, {**required, **desired}
         self.joints = _joints(list(required.values()))
         self.desired = _joints(list(desired.values()))
-        self.parameters = _named(self._parts, lambda part: part.parameters)
+        self.parameters = self._given = _named(self._parts, lambda part: part.parameters)
         self.ranges = _named(self._parts, lambda part: part.ranges)
 
     def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
         """Let all parts act."""
-        for id_, part in self._parts.items():
-            part.parameters = {name: self.parameters[f"{id_}:{name}"] for name in part.parameters}
+        if self.parameters is not self._given:
+            self._given = self.parameters
+            for id_, part in self._parts.items():
+                part.parameters = {name: self.parameters[f"{id_}:{name}"] for name in part.parameters}
+        for part in self._parts.values():
             part.act(simulation, goal, torques, damping)
 
 

@@ -23,6 +23,8 @@ CLASS = "class"
 
 _COMPOUND = "CompoundController"
 
+_NO_POSE = MotionPose({})
+
 _log = logging.getLogger(__name__)
 
 
@@ -54,8 +56,10 @@ class ControllerMotionUnit(MotionUnit):
         """
         if self.controller.failed:
             raise RealizerError(SimulationFailed())
-        self.controller.parameters = dict(self.parameters)
-        return MotionPose({})
+        values = dict(self.parameters)
+        if values != self.controller.parameters:
+            self.controller.parameters = values
+        return _NO_POSE
 
 
 class ControllerMaker:
