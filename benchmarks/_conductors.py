@@ -51,7 +51,10 @@ async def _conduct(human: Path, threads: tuple[int, ...], frames: int) -> list[f
             pilot.perform(block(f"b-{character}", _CONDUCTING, characterId=character))
         await pilot.advance(_BEGUN)
         keep_from_ticks()  # as a server does
-        return [await _median_tick(pilot, number, frames) for number in threads]
+        times = [await _median_tick(pilot, number, frames) for number in threads]
+        if pilot.feedback.of("fall"):
+            raise RuntimeError("a conductor has fallen: the times are not those of conductors")
+        return times
 
 
 async def _median_tick(pilot: RealizerPilot, threads: int, frames: int) -> float:

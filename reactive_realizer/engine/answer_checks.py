@@ -106,13 +106,18 @@ def check_eyes(pose: EyePose) -> EyePose:
     return pose
 
 
-def check_body(body: Body) -> Body:
+def check_body(body: Body, before: Body) -> Body:
     """A body that can be shown.
+
+    Args:
+        body: made from another one.
+        before: this other one, which can be shown: only what differs is checked.
 
     Raises:
         RealizerError, TypeError, ValueError: it cannot.
     """
-    checked(Layer(LayerKind.BASE, expected(Body, body).pose, root=body.root))
+    turned = {joint: turn for joint, turn in expected(Body, body).pose.items() if before.pose.get(joint) is not turn}
+    checked(Layer(LayerKind.BASE, turned, root=body.root))
     return body
 
 

@@ -219,7 +219,7 @@ class GuardedEngine:
     def _guarded_dynamics(self, dynamics: Dynamics | None) -> Dynamics | None:
         if dynamics is None:
             return None
-        return lambda body, duration: self._try(lambda: check_body(dynamics(body, duration)), body)
+        return lambda body, duration: self._try(lambda: check_body(dynamics(body, duration), body), body)
 
 
 def _called(call: Callable[[], T]) -> T:

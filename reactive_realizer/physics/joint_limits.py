@@ -75,12 +75,13 @@ class LimitSpring:
         torques[first + 1] -= of_y * y
         torques[first + 2] -= of_z * z
         damped = period + _DAMPED / _FREQUENCY
-        along = math.cos(parts[1]) ** 2
-        x, z = float(beyond[0] != 0.0), float(beyond[2] != 0.0)
-        damping[first] += of_x * damped * (along * x + (1.0 - along) * z)
+        # The axes of the swing are those of the degrees of freedom before the twist: each damps its part about both.
+        share = math.cos(parts[1]) ** 2
+        about_x, about_z = float(beyond[0] != 0.0), float(beyond[2] != 0.0)
+        damping[first] += of_x * damped * (share * about_x + (1.0 - share) * about_z)
         if beyond[1]:
             damping[first + 1] += of_y * damped
-        damping[first + 2] += of_z * damped * (along * z + (1.0 - along) * x)
+        damping[first + 2] += of_z * damped * (share * about_z + (1.0 - share) * about_x)
 
     def _beyond(self, parts: Vec3) -> Vec3:
         """Return how far a rotation is beyond the bounds, rad, in the axes after its twist.
@@ -95,7 +96,7 @@ class LimitSpring:
         return near if length(near) <= length(far) else far
 
     def _outside(self, parts: Vec3) -> Vec3:
-        # Not in a loop, which takes twice as long: it is called eighteen times in each frame of a conductor.
+        # Not in a loop, which takes twice as long: it is called nine times in each frame of a conductor.
         x, y, z = parts
         low_x, low_y, low_z = self._lowest
         high_x, high_y, high_z = self._highest

@@ -65,6 +65,16 @@ async def test_a_figure_that_begins_to_balance_leans_over_its_feet_without_a_jer
         assert velocities[:, 2].min() > -0.02
 
 
+async def test_a_figure_that_conducts_and_balances_from_its_first_frame_on_stands(pilot: RealizerPilot) -> None:
+    """Nothing was shown before: its arms do not come from their rest, and their way does not throw it."""
+    pilot.block("b", BALANCE.format(0) + '<bmlt:procanimation id="c" name="conduct-3-beat" start="0" end="2"/>')
+    await pilot.advance(0.1)
+    pilot.watch()
+    await pilot.advance(2)
+    assert np.ptp([body.root for body in pilot.bodies()], axis=0).max() < 0.1  # it leans over its feet
+    assert pilot.feedback.of("fall") == []
+
+
 async def test_what_the_arms_do_moves_the_body_that_balances_but_not_the_arms() -> None:
     async def conduct(behaviors: str) -> RealizerPilot:
         async with open_pilot(SceneOptions(voice="text")) as pilot:

@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Collection
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
@@ -92,6 +94,22 @@ def test_a_body_without_kinematic_joints_collapses_on_the_floor_within_its_limit
         turned = np.degrees(swing_and_twist(simulation.rotation(joint)))
         assert (turned > np.array(limits.lowest) - SOFT).all(), joint
         assert (turned < np.array(limits.highest) + SOFT).all(), joint
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_limp_body_that_is_thrown_does_not_whip_at_the_limits_of_its_joints(seed: int) -> None:
+    random = Random(seed)
+    any_turn = partial(random.uniform, -1.0, 1.0)
+    turns = {joint: from_rotation_vector((any_turn(), any_turn(), any_turn())) for joint in JOINTS}
+    simulation = Simulation(MALE)
+    simulation.place(Body(MALE, turns, (0.0, 0.3, 0.0)))
+    simulation.push("vl5", (random.uniform(-400.0, 400.0), 0.0, random.uniform(-400.0, 400.0)), 0.2)
+    fastest = []
+    for _ in range(100):
+        simulation.advance(Body(MALE), steps=8)
+        fastest.append(float(np.abs(simulation.data.qvel[simulation.degrees(ROOT).stop :]).max()))
+    # At first, joints return from poses beyond their limits.
+    assert max(fastest[6:]) < 80.0
 
 
 def test_a_loose_arm_falls_and_swings_ever_less(skeleton: Skeleton) -> None:

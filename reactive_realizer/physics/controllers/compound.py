@@ -26,7 +26,8 @@ class CompoundController(PhysicalController):
         self._required, self._parts = required, {**required, **desired}
         self.joints = _joints(list(required.values()))
         self.desired = _joints(list(desired.values()))
-        self.parameters = self._given = _named(self._parts, lambda part: part.parameters)
+        self.parameters = _named(self._parts, lambda part: part.parameters)
+        self._given: Mapping[str, float] = self.parameters
         self.ranges = _named(self._parts, lambda part: part.ranges)
 
     def act(self, simulation: "Simulation", goal: Body, torques: list[float], damping: list[float]) -> None:
