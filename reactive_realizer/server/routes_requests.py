@@ -8,7 +8,7 @@ from aiohttp import web
 
 from reactive_realizer.bml.faults import BadEncoding
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.server.faults import SlowRequest, WrongCharset
+from reactive_realizer.server.faults import BadRequest, SlowRequest, WrongCharset
 from reactive_realizer.server.intake import BlocksRefused
 from reactive_realizer.server.keys import CLIENTS, INTAKE, LIVE
 from reactive_realizer.server.middleware import answer_to
@@ -86,7 +86,7 @@ async def _body(request: web.Request) -> bytes:
     """The body of a request.
 
     Raises:
-        RealizerError: "slow-request": the client has not sent it in time.
+        RealizerError: "slow-request": the client has not sent it in time; "bad-request": its connection has closed.
     """
     limit = request.app[LIVE].limits.body_seconds
     try:
@@ -94,3 +94,7 @@ async def _body(request: web.Request) -> bytes:
             return await request.read()
     except TimeoutError:
         raise RealizerError(SlowRequest(limit=limit)) from None
+    except RuntimeError:
+        if request.protocol.connected:
+            raise
+        raise RealizerError(BadRequest(reason="its connection has closed")) from None

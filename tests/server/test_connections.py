@@ -24,6 +24,7 @@ from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 from reactive_realizer.server.serve import serving
 from reactive_realizer.server.socket_client import SocketClient
+from reactive_realizer.server.token_check import TokenCheck
 
 from .conftest import ALICE, Open
 
@@ -132,6 +133,26 @@ async def test_a_body_that_does_not_arrive_is_not_waited_for(on_air: Open) -> No
         assert b"408" in await reader.readline()
         assert b"slow-request" in await reader.readuntil(b"}")
         writer.close()
+
+
+async def test_a_connection_that_is_closed_while_its_body_arrives_is_logged_in_one_line(
+    on_air: Open, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """As one that makes room for another."""
+
+    async def close(_: TokenCheck, request: web.Request) -> None:
+        request.protocol.force_close()
+
+    monkeypatch.setattr(TokenCheck, "check", close)
+    caplog.set_level("INFO")
+    async with on_air() as air:
+        reader, writer = await asyncio.open_connection(air.client.host, air.client.port)
+        head = b"POST /bml HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/xml\r\nContent-Length: 100\r\n\r\n"
+        writer.write(head + b"<bml")
+        assert await reader.read() == b""
+        writer.close()
+    assert "its connection has closed" in caplog.text
+    assert not any(each.exc_info for each in caplog.records)
 
 
 async def test_exhausted_descriptors_are_told_once_and_connections_are_accepted_again_later(
