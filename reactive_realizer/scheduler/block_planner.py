@@ -9,8 +9,10 @@ from typing import NamedTuple
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.asking_client import asked_by
 from reactive_realizer.engine.faults import UnknownParameter
 from reactive_realizer.errors import CreationFault, Fault, SchedulingFault, WarningType
+from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
@@ -109,7 +111,7 @@ class BlockPlanner:
 
     Args:
         expected: ids of blocks that have arrived and not entered yet.
-        most_points: how many sync points a block may have.
+        limits: on the work of a tick, and on sync points.
     """
 
     def __init__(
@@ -121,14 +123,14 @@ class BlockPlanner:
         background: BackgroundWork,
         feedback: BlockFeedback,
         expected: Container[str],
-        most_points: int,
+        limits: Limits,
     ) -> None:
         self._routing = routing
         self._procedures = procedures
         self._planning = planning
         self._background = background
         self._feedback = feedback
-        self._most_points = most_points
+        self._limits = limits
         self._queue = PlanningQueue(blocks, expected)
         self._preparations: dict[BMLBlock, Preparation] = {}
         self._drafts: dict[BMLBlock, _Draft] = {}
@@ -150,7 +152,8 @@ class BlockPlanner:
                 fault = UnknownParameter(names=tuple(sorted(behavior.parameters)), element=behavior.name, known=())
                 self._feedback.warn_element(block.key, behavior, fault)
         if not any(loss.required for loss in losses):
-            self._preparations[block] = prepared or Preparation(routed, self._background)
+            with asked_by(block.client):
+                self._preparations[block] = prepared or Preparation(routed, self._background)
             self._queue.add(block, self._preparations[block])
         return losses
 
@@ -215,8 +218,8 @@ class BlockPlanner:
             made.accompanies = block.gives_way
             items[made] = item_of(made)
             size += len(made.timing.points) - len(made.unreported)
-            if size > self._most_points:
-                fault = TooManyPoints(limit=self._most_points)
+            if size > self._limits.sync_points_per_block:
+                fault = TooManyPoints(limit=self._limits.sync_points_per_block)
                 place = block.description.location
                 loss = Loss(None, fault.located(place.line, place.column), dropped=False, required=True)
                 self._drafts[block].outcome = loss
@@ -241,10 +244,23 @@ class BlockPlanner:
                 draft.outcome = plan  # the block fails, and needs no pegs
                 yield 1
             yield from self._planning.make_pegs(block, plan)
+            work = 3 * plan.size // 2 + _LOSS * len(plan.losses)  # to put it on the board
+            if work > self._limits.planning_per_tick:
+                yield from self._expected(block, plan)
             if self._holds(block, draft, left):
                 draft.outcome = plan
-                yield 3 * plan.size // 2 + _LOSS * len(plan.losses)  # to put it on the board
+                yield work
             plan.discard()
+
+    def _expected(self, block: BMLBlock, plan: Plan) -> Generator[int]:
+        """Have the pegs of a big block move in a tick of their own, before the one in which it is put on the board."""
+        try:
+            yield self._limits.planning_per_tick
+            self._planning.expect(block)
+            yield self._limits.planning_per_tick
+        except GeneratorExit:
+            plan.discard()
+            raise
 
     def _holds(self, block: BMLBlock, draft: _Draft, units: Iterable[PlanUnit]) -> bool:
         """Whether the problem that was posed can still be put on the board."""

@@ -54,7 +54,7 @@ class Meant(NamedTuple):
 
 
 class BMLBlock:
-    """A block that is alive, and its pegs; only `BlockLifecycle` writes it.
+    """A block that is alive, and its pegs; only `BlockLifecycle` writes it, and `Planning` when it is to start.
 
     Attributes:
         key: its name.
@@ -244,6 +244,10 @@ class BMLBlock:
         return [unit for unit in self.units if unit.live]
 
     # --- writing, within a transaction
+
+    def expect(self, floor: GlobalTime) -> None:
+        """Have the start of a block that is being planned not come before a time, at which its plan will be there."""
+        self.start.wait_for(floor, self._awaited())
 
     def release_start(self, holds: Collection[TimeCell], now: GlobalTime) -> None:
         """Do not wait any more for some of the pegs that hold the start; a block that has not started starts later."""

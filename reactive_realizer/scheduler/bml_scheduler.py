@@ -93,7 +93,7 @@ class BMLScheduler:
             background,
             self._feedback,
             self._entries,
-            limits.sync_points_per_block,
+            limits,
         )
         self._turns = LaneTurns()
         self._left = 0

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import TypeVar
 
+from reactive_realizer.clock.ticker import next_tick
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, has_passed, is_due
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
@@ -331,6 +332,14 @@ class Planning:
                 peg.dispose()
             plan.discard()
             raise
+
+    def expect(self, block: BMLBlock) -> None:
+        """Have the pegs of a block move that is put on the board in the next tick, and starts in the one after it.
+
+        Otherwise, they would move in the tick in which they are put on the board.
+        """
+        with self._board.graph.transaction(f"expect {block.key.block}"):
+            block.expect(next_tick(next_tick(self._board.time)))
 
     def lay_out(self, block: BMLBlock, plan: Plan) -> list[TimePeg]:
         """Within a transaction, put the pegs of a plan on the board; returns those that the block's start waits for."""

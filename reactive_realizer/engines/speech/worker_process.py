@@ -7,8 +7,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from heapq import heappop, heappush
+from itertools import chain
 from typing import Any, Final, Self, cast
 
+from reactive_realizer.engine.asking_client import asking_client
 from reactive_realizer.engines.speech.worker_messages import MessageDecoder, WorkerMessage, failure
 
 _START_PATIENCE = 60.0
@@ -30,7 +32,10 @@ class _Request:
 
 
 class WorkerProcess(asyncio.SubprocessProtocol):
-    """One run of the worker. Requests are sent one by one, each when the previous one is answered, lowest ranks first.
+    """One run of the worker. Requests are sent one by one, each when the previous one is answered.
+
+    The clients for which they are made take turns, so that none waits for all that another one has spoken. Of those of
+    one client, the lowest rank comes first.
 
     A request that is canceled before it is sent costs nothing; after that, its reply is discarded. When the process
     ends, the request that it worked on fails, and the reply to the others is `UNSENT`. A worker that takes longer for a
@@ -49,7 +54,8 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         self.hello: asyncio.Future[WorkerMessage] = loop.create_future()
         self.ended: asyncio.Future[None] = loop.create_future()
         self._awaited: asyncio.Future[WorkerMessage] | None = self.hello
-        self._waiting: list[_Request] = []
+        self._waiting: dict[str, list[_Request]] = {}
+        """Requests by client, a heap each; the client whose turn was longest ago first."""
         self._requests = 0
         self._decoder = MessageDecoder()
         self._patience = patience
@@ -85,7 +91,7 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         request = _Request(
             rank, self._requests, WorkerMessage(header, body), asyncio.get_running_loop().create_future()
         )
-        heappush(self._waiting, request)
+        heappush(self._waiting.setdefault(asking_client(), []), request)
         if self.ended.done():
             self._fail_unanswered()
         elif self._awaited is None:
@@ -123,15 +129,26 @@ class WorkerProcess(asyncio.SubprocessProtocol):
     def _send_next(self) -> None:
         """Sends the next request that is not canceled."""
         self._watch.cancel()
-        while self._waiting and self._waiting[0].reply.done():
-            heappop(self._waiting)
-        if not self._waiting:
+        request = self._take_next()
+        if request is None:
             self._awaited = None
             return
-        request = heappop(self._waiting)
         self._awaited = request.reply
         cast("asyncio.WriteTransport", self._transport.get_pipe_transport(0)).write(request.message.encode())
         self._watch = asyncio.get_running_loop().call_later(self._patience, self._give_up)
+
+    def _take_next(self) -> _Request | None:
+        """Removes the next request of the client whose turn it is; that client is the last one then."""
+        while self._waiting:
+            client = next(iter(self._waiting))
+            requests = self._waiting.pop(client)
+            while requests:
+                request = heappop(requests)
+                if not request.reply.done():
+                    if requests:
+                        self._waiting[client] = requests
+                    return request
+        return None
 
     def _give_up(self) -> None:
         _log.warning("the speech worker %d does not answer and is killed", self.pid)
@@ -149,7 +166,7 @@ class WorkerProcess(asyncio.SubprocessProtocol):
         )
         if self._awaited is not None:
             _answer(self._awaited, failed)
-        for request in sorted(self._waiting):
+        for request in chain.from_iterable(self._waiting.values()):
             _answer(request.reply, failed if self._closing else UNSENT)
         self._waiting.clear()
 

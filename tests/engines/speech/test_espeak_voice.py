@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from reactive_realizer.engine.asking_client import asked_by
 from reactive_realizer.engine.tts import Utterance, completed
 from reactive_realizer.engines.speech.espeak_voice import EspeakVoice
 from reactive_realizer.engines.speech.worker_messages import MessageDecoder
@@ -198,6 +199,22 @@ async def test_a_request_canceled_while_it_waits_is_never_sent(
         speech.cancel()
     await asyncio.gather(first, others[-1])
     assert len(asked) == 2
+
+
+async def test_clients_take_turns(voice: EspeakVoice) -> None:
+    spoken_in_order = list[str]()
+
+    async def speak(client: str, number: int) -> None:
+        await spoken(voice, f"{client} {number}.")
+        spoken_in_order.append(client)
+
+    async with asyncio.TaskGroup() as group:
+        for client, many in (("first", 6), ("second", 2), ("third", 1)):
+            with asked_by(client):
+                for number in range(many):
+                    group.create_task(speak(client, number))
+    # The first one was sent before there were others.
+    assert spoken_in_order == ["first", "first", "second", "third", "first", "second", *["first"] * 3]
 
 
 async def test_a_closed_voice_has_no_process(voice: EspeakVoice) -> None:
