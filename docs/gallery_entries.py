@@ -53,7 +53,7 @@ def entries(lexicon: Iterable[LexiconEntry]) -> list[Entry]:
     found = [
         strip for entry in playing for strip in _strips(entry) if entry.constraints or entry.lexeme not in own_modes
     ]
-    return [*found, *_action_units(), *_FACES, *_visemes(), *_UNITS]
+    return [*found, *_action_units(), *_FACES, *_visemes(), *_expressive(), *_UNITS]
 
 
 def _action_units() -> Iterator[Entry]:
@@ -61,6 +61,20 @@ def _action_units() -> Iterator[Entry]:
     for number, unit in Expressions.read(face / "lexemes.json", face / "action_units.json").units.items():
         behavior = f'<faceFacs xmlns="{BML_EXT}" id="f" au="{number}" amount="1"/>'
         yield Entry(f"facefacs-{number:02}", behavior, face=True, caption=unit.name)
+
+
+def _expressive() -> Iterator[Entry]:
+    """A gesture for each of the four numbers of expressivity, with -1, 0 and 1, at the same moments."""
+    shown = (
+        ("spatialExtent", "CONTAINER", "BOTH_HANDS", 2.0),
+        ("temporalExtent", "OFFER", "RIGHT_HAND", 3.2),
+        ("power", "CHOP", "RIGHT_HAND", 2.4),
+        ("fluidity", "OFFER", "RIGHT_HAND", 2.8),
+    )
+    for (name, lexeme, mode, seconds), value in product(shown, (-1, 0, 1)):
+        parameter = f'<bmlt:parameter name="{name}" value="{value}"/>'
+        behavior = f'<gesture id="g" lexeme="{lexeme}" mode="{mode}">{parameter}</gesture>'
+        yield Entry(f"expressivity-{name.lower()}-{value + 2}", behavior, seconds=seconds)
 
 
 def _visemes() -> Iterator[Entry]:

@@ -51,6 +51,7 @@ SECTIONS = {
     "Head": ("head", "headdirectionshift"),
     "Gaze": ("gaze", "gazeshift"),
     "Gestures": ("gesture", "pointing"),
+    "Expressivity": ("expressivity",),
     "Postures": ("pose", "stance", "postureshift"),
     "Procedural animations": ("procanimation", "procanimationgesture"),
     OTHERS: (),

@@ -9,6 +9,7 @@ from sys import float_info
 from typing import Any, Final, TypeVar
 
 from reactive_realizer.assembly.faults import BadHumanFile
+from reactive_realizer.bml.expressivity import MOST, Expressivity
 from reactive_realizer.bml.faults import NotAnId
 from reactive_realizer.bml.names import BLOCK, EVENTS
 from reactive_realizer.embodiment.vector import ZERO, Vec3
@@ -60,6 +61,7 @@ class CharacterSpec:
         idle: degree of its idle animation, 0 to 1; true is 1, and false is 0, for none.
         blink_rate: blinks per minute of idle animation; None for the usual rate.
         liveliness: how lively it is while it speaks, 0 to 1; None for that of the scene.
+        expressivity: of its gestures, pointing and key poses, by the names of the fields of `Expressivity`.
         weight: of its physical body, kg; None for the usual one of its stature.
         simulation_steps: of its physical body in each tick; None for steps of the usual time.
         bindings: names of files among the assets, by kind; by default `DEFAULT_BINDINGS`.
@@ -73,6 +75,7 @@ class CharacterSpec:
     idle: bool | float = 1.0
     blink_rate: float | None = None
     liveliness: float | None = None
+    expressivity: Mapping[str, float] = field(default_factory=dict)
     weight: float | None = None
     simulation_steps: int | None = None
     bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
@@ -162,6 +165,10 @@ class _Reader:
             raise self._bad(f"{key}.idle", f"{spec.idle:g} is not from 0 to 1")
         if spec.liveliness is not None and not 0.0 <= spec.liveliness <= 1.0:
             raise self._bad(f"{key}.liveliness", f"{spec.liveliness:g} is not from 0 to 1")
+        self.know(f"{key}.expressivity", spec.expressivity, Expressivity._fields)
+        for name, value in spec.expressivity.items():
+            if not -MOST <= value <= MOST:
+                raise self._bad(f"{key}.expressivity.{name}", f"{value:g} is not from {-MOST:g} to {MOST:g}")
         steps = spec.simulation_steps
         if steps is not None and not FEWEST_STEPS <= steps <= MOST_STEPS:
             raise self._bad(f"{key}.simulation_steps", f"{steps} is not from {FEWEST_STEPS} to {MOST_STEPS}")
@@ -223,6 +230,8 @@ class _Reader:
             return tuple(self._value(key, part, float) for part in value)
         if kind == tuple[str, ...] and isinstance(value, list):
             return tuple(self._value(key, part, str) for part in value)
+        if kind == Mapping[str, float] and isinstance(value, dict):
+            return {name: self._value(f"{key}.{name}", part, float) for name, part in value.items()}
         if kind == str | Mapping[str, str] and isinstance(value, str):
             return value
         if kind in (Mapping[str, str], str | Mapping[str, str]) and isinstance(value, dict):

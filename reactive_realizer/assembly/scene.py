@@ -14,6 +14,7 @@ from reactive_realizer.assembly.faults import BadHumanFile
 from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.bml.dialects import Dialects
+from reactive_realizer.bml.expressivity import Expressivity
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.face_map import STAND_INS, StandIns
@@ -167,6 +168,7 @@ def _character(
         limits=limits,
         liveliness=options.liveliness if spec.liveliness is None else spec.liveliness,
         speech_streams=streams,
+        expressivity=Expressivity(**spec.expressivity),
     )
     engines: list[Engine] = [load("engines", name)(context) for name in spec.engines]
     mouth.voices = [engine for engine in engines if isinstance(engine, LipSyncProvider)]

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
+from reactive_realizer.bml.expressivity import NEUTRAL, Expressivity
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.world import World
@@ -49,6 +50,7 @@ class EngineContext:
         limits: on what the engines read.
         liveliness: how lively it is while it speaks, 0 to 1; None if only a speech may ask for that.
         speech_streams: the sound of speeches that clients send, of all characters.
+        expressivity: of its gestures, pointing and key poses, unless they ask for another one.
     """
 
     character: str
@@ -68,6 +70,7 @@ class EngineContext:
     limits: Limits = field(default_factory=Limits)
     liveliness: float | None = None
     speech_streams: SpeechStreams = field(default_factory=lambda: SpeechStreams(Limits()))
+    expressivity: Expressivity = NEUTRAL
 
     @property
     def graph(self) -> Graph:

@@ -66,7 +66,7 @@ from reactive_realizer.engines.animation.late_hands import LateHands
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
-from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, GazeGoal, Resource
+from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, EXPRESSIVITY_RANGES, GazeGoal, Resource
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
 from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionMotionUnit, LocomotionUnit
 from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
@@ -115,7 +115,7 @@ class AnimationEngine(DefaultEngine):
     reads_parameters = True
     parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType(
         {
-            Gesture: {"amount": AMOUNT_RANGE},
+            Gesture: {"amount": AMOUNT_RANGE, **EXPRESSIVITY_RANGES},
             Head: {"amount": AMOUNT_RANGE},
             **dict.fromkeys((Gaze, GazeShift), GAZE_WEIGHTS),
             HeadDirectionShift: HEAD_WEIGHTS,
@@ -142,6 +142,7 @@ class AnimationEngine(DefaultEngine):
             functions,
             context.character,
             self._expected_place,
+            context.expressivity,
         )
         self._library = MotionLibrary(binding, maker_context)
         rate = USUAL_RATE if context.blink_rate is None else context.blink_rate

@@ -4,12 +4,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from math import inf
 
+from reactive_realizer.bml.expressivity import HURRIED
 from reactive_realizer.engines.animation.motion_unit import AMOUNT, AMOUNT_RANGE, MotionUnit
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
-
-_SHORT = 0.6
-"""A motion looks hurried below this share of its preferred duration."""
 
 _ALIKE = 1.01
 """Factor between durations that makes no difference, such as between those of two arms of about the same length."""
@@ -89,4 +87,4 @@ def select(candidates: Iterable[Candidate], taken: frozenset[str], time: float |
 
 def _hurried(motion: MotionUnit, time: float) -> bool:
     least, _ = motion.stretch or (0.0, inf)
-    return time < max(least, _SHORT) * motion.preferred_duration
+    return time < max(least, HURRIED) * motion.preferred_duration

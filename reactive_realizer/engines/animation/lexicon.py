@@ -13,6 +13,7 @@ from reactive_realizer.bml.names import BML, BMLT
 from reactive_realizer.engine.lexicon import Changeable, LexiconEntry
 from reactive_realizer.engines.animation.animation_unit import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
+from reactive_realizer.engines.animation.motion_unit import EXPRESSIVITY_RANGES
 from reactive_realizer.engines.animation.posture.posture_library import LEXEMES
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
@@ -58,7 +59,8 @@ _LEXEME_ATTRIBUTES = ("lexeme", "name")
 def binding_lexicon(library: MotionLibrary, target: str) -> Iterator[LexiconEntry]:
     """Yield the entries of the binding, in order, and the poses of postures.
 
-    Entries that need more from a behavior than a target, such as those that play any file, are left out.
+    Entries that need more from a behavior than a target, such as those that play any file, are left out. So are the
+    parameters of expressivity, which every gesture and pointing has.
 
     Args:
         library: creates the motions.
@@ -87,7 +89,11 @@ def _entry(spec: UnitSpec, text: str, library: MotionLibrary) -> LexiconEntry:
         constraints,
         timing.points,
         sum(phase.duration for phase in timing.phases),
-        {name: Changeable(motion.parameters[own], motion.ranges[own]) for name, own in candidate.names.items()},
+        {
+            name: Changeable(motion.parameters[own], motion.ranges[own])
+            for name, own in candidate.names.items()
+            if own not in EXPRESSIVITY_RANGES
+        },
         spec.file,
     )
 

@@ -8,6 +8,7 @@ from typing import Protocol, runtime_checkable
 
 from reactive_realizer.binding.asset_file import first_asset, parse_boolean
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.expressivity import NEUTRAL, Expressivity
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.feet import walks
@@ -35,6 +36,7 @@ class MakerContext:
         functions: of plug-ins, for formulas of animations.
         character: its id.
         place: returns where it will stand when the behavior that is being planned starts.
+        expressivity: of its motions, unless they ask for another one.
     """
 
     humanoid: Humanoid
@@ -45,6 +47,7 @@ class MakerContext:
     functions: Mapping[str, Function]
     character: str
     place: Callable[[], Place]
+    expressivity: Expressivity = NEUTRAL
 
     @property
     def can_step(self) -> bool:

@@ -8,6 +8,8 @@ from operator import itemgetter
 from types import MappingProxyType
 from typing import NamedTuple, Protocol, Self
 
+from reactive_realizer.bml.expressivity import MOST
+from reactive_realizer.bml.expressivity import NAMES as EXPRESSIVITY_NAMES
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.inertialization import CARRIED
@@ -28,6 +30,9 @@ AMOUNT = "amount"
 """Parameter that scales a motion, as BML calls it."""
 
 AMOUNT_RANGE = Range(0.0, 1.0)
+
+EXPRESSIVITY_RANGES: Mapping[str, Range] = MappingProxyType(dict.fromkeys(EXPRESSIVITY_NAMES, Range(-MOST, MOST)))
+"""Valid values of the parameters of expressivity."""
 
 ANY_VALUE = Range(-inf, inf)
 """Range of parameters that an animation's author defines."""

@@ -6,6 +6,7 @@ from contextlib import suppress
 from types import MappingProxyType
 
 from reactive_realizer.bml.behaviors import Pointing
+from reactive_realizer.bml.expressivity import NAMES, NEUTRAL, Expressivity
 from reactive_realizer.bml.vocabulary import Mode
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
@@ -14,11 +15,19 @@ from reactive_realizer.embodiment.place import Place, between_headings, heading_
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, rotate, slerp
 from reactive_realizer.embodiment.vector import UP, Vec3
+from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.faults import NoJoints, NotPointable, TargetLost, WrongElement
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, TargetLocator, target_locator
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
-from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, PhaseDuration, arms_used
+from reactive_realizer.engines.animation.motion_unit import (
+    EXPRESSIVITY_RANGES,
+    Moment,
+    MotionPose,
+    MotionUnit,
+    PhaseDuration,
+    arms_used,
+)
 from reactive_realizer.engines.animation.motions.gesture import HOLD, HOLD_RANGE
 from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, PointingArm
 from reactive_realizer.engines.animation.motions.reaching import (
@@ -59,11 +68,15 @@ class PointingMotionUnit(MotionUnit):
     people (thesis 4.2.2). If the target leaves the reach of an arm, the arm stays where it came nearest.
 
     If the target is behind the arms, the feet turn the figure meanwhile, and turn it back.
+
+    With spatial extent, the arm stretches further; with power, the hand is quicker, on a straighter way, and passes the
+    place where it points before it is ready. The line meets the target whatever the expressivity.
     """
 
     kind = LayerKind.GESTURE
     planning_work = 80
     fixed = frozenset({HAND, *RANGES})
+    ranges = EXPRESSIVITY_RANGES
 
     def __init__(
         self,
@@ -84,27 +97,43 @@ class PointingMotionUnit(MotionUnit):
             figure: returns the body as expected in a frame (`Humanoid.expected`), with additive motion such as
                 breathing, which moves the finger.
             rest: expected body at the start; preferred durations follow from it.
-            parameters: a valid value for each of `RANGES`.
+            parameters: a valid value for each of `RANGES`; and of expressivity, 0 for those that are missing.
             facing: the turn of the feet; None if they stay.
         """
         self._facing = facing
         self.steps = facing is not None
-        self.parameters = dict(parameters)
+        self.parameters = {**NEUTRAL.parameters, **parameters}
         self.joints = frozenset().union(*(arm.joints for arm in arms))
         self.resources = arms_used(self.joints)
         self._arms, self._target, self._figure = arms, target, figure
         self._begin = {joint: rest.rotation(joint) for joint in self.joints}
         self._name, self._aimed = name, dict[str, Quat]()
         self._profile = sigmoid_profile(self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
-        way, still, hold = self.preparation(rest), PhaseDuration(0.0), PhaseDuration(self.parameters[HOLD])
-        durations = [way, still, still, hold, still, way]
+        self._rest = rest
+        durations = self.durations(self._expressivity())
         self.preferred_duration = sum(each.preferred for each in durations)
         self.key_positions = gesture_key_positions([each.preferred for each in durations])
-        self.shortest, self.retraction = shortest_phases(durations), way.shortest
+        self.shortest, self.retraction = shortest_phases(durations), durations[-1].shortest
+
+    def _expressivity(self) -> Expressivity:
+        """Return the present expressivity."""
+        return Expressivity(*(self.parameters[name] for name in NAMES))
+
+    def durations(self, expressivity: Expressivity) -> list[PhaseDuration]:
+        """Return the durations of the six phases between the seven points, with expressivity."""
+        still, hold = PhaseDuration(0.0), PhaseDuration(expressivity.pause(self.parameters[HOLD]))
+        way = self._way(self._rest, expressivity)
+        return [way, still, still, hold, still, way]
 
     def preparation(self, body: Body) -> PhaseDuration:
         """Return the duration of the preparation from a body."""
-        way = reach(body, body.posed(_turns(self._aim(body))), self.joints, self._profile)
+        return self._way(body, self._expressivity())
+
+    def _way(self, body: Body, expressivity: Expressivity) -> PhaseDuration:
+        way = reach(body, body.posed(_turns(self._aim(body, expressivity))), self.joints, self._profile)
+        if expressivity != NEUTRAL:
+            preferred = expressivity.movement(way.preferred, way.shortest, expressivity.speed)
+            way = PhaseDuration(preferred, way.shortest)
         if self._facing is None:
             return way
         time = stepping_time(self._facing.planned)
@@ -122,22 +151,31 @@ class PointingMotionUnit(MotionUnit):
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the rotations of arms and fingers; retraction fades to the layers below."""
-        keys, phase = self.key_positions, moment.phase
+        keys, phase, expressivity = self.key_positions, moment.phase, self._expressivity()
         if phase <= keys["relax"] or not self._aimed:
-            aims = self._aim(self._figure(moment.time), moment.time)
+            aims = self._aim(self._figure(moment.time), expressivity, moment.time)
             self._aimed = _turns(aims)
             if phase >= keys["ready"]:
                 self.fault = self.fault or self._missed(aims)
         if phase < keys["ready"]:
-            done = self._profile(share(phase, 0.0, keys["ready"]))
-            return MotionPose({joint: slerp(self._begin[joint], goal, done) for joint, goal in self._aimed.items()})
+            return MotionPose(self._prepared(share(phase, 0.0, keys["ready"]), moment.body, expressivity))
         return MotionPose(self._aimed, 1.0 - self._profile(share(phase, keys["relax"], 1.0)))
 
-    def _aim(self, body: Body, time: GlobalTime | None = None) -> list[ArmPose]:
+    def _prepared(self, time: float, body: Body, expressivity: Expressivity) -> Mapping[str, Quat]:
+        """Return the pose after a share of the time of the preparation."""
+        done = self._profile(time)
+        turned = {joint: slerp(self._begin[joint], goal, done) for joint, goal in self._aimed.items()}
+        if expressivity.power == 0.0:
+            return turned
+        arms = [CarriedArm.of(arm.skeleton, arm.side) for arm in self._arms]
+        way = Way(self._begin, self._aimed, done, expressivity.curvature, expressivity.arriving(time))
+        return on_way(arms, turned, way, body)
+
+    def _aim(self, body: Body, expressivity: Expressivity, time: GlobalTime | None = None) -> list[ArmPose]:
         target = self._target(time)
         if self._facing is not None:
             target = self._facing.turned(target)
-        return [arm.aim(body, target) for arm in self._arms]
+        return [arm.aim(body, target, expressivity.spatial_extent) for arm in self._arms]
 
     def _missed(self, aims: Sequence[ArmPose]) -> Fault | None:
         for arm, aim in zip(self._arms, aims, strict=True):
@@ -204,7 +242,8 @@ class PointingMaker:
         facing = self._facing(target, sides)
         seen = target if facing is None else lambda time=None: facing.turned(target(time))
         arms = self._arms(sides, behavior, seen) if sides else self._free(behavior, seen)
-        parameters = {**DEFAULTS, **parameter_values(request.parameters, RANGES)}
+        given = parameter_values(request.parameters, {**RANGES, **EXPRESSIVITY_RANGES})
+        parameters = {**DEFAULTS, **self._context.expressivity.parameters, **given}
         return PointingMotionUnit(behavior.target, arms, target, humanoid.expected, rest, parameters, facing)
 
     def _facing(self, target: TargetLocator, sides: str | None) -> Facing | None:

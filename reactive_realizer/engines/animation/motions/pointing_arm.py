@@ -80,6 +80,8 @@ _DOWN: Vec3 = (0.0, -1.0, 0.0)
 # Bend of the elbow toward a far target, rad: a locked elbow looks stiff, and limbs near full extension are not solved
 # exactly.
 _LEAST_BEND = math.radians(25.0)
+# How much less it is with the greatest spatial extent, and how much more with the smallest, rad.
+_STRETCHED, _BENT = math.radians(13.0), math.radians(45.0)
 # Limit of the angle between the upper arm and a near target, rad.
 _MOST_BEND = math.radians(115.0)
 # Bisection steps for the bend toward a near target: precise to a hundredth of a degree.
@@ -140,17 +142,18 @@ class PointingArm:
         """The joints that pointing turns."""
         return frozenset((*map(self._joint, _NEEDED[:3]), *self._fingers))
 
-    def aim(self, body: Body, target: Vec3) -> ArmPose:
+    def aim(self, body: Body, target: Vec3, extent: float = 0.0) -> ArmPose:
         """Point at a target, or as nearly as is natural.
 
         Args:
             body: with the current trunk.
             target: in the figure's frame, m.
+            extent: how far the arm stretches: -1 keeps the hand near, 1 reaches out.
         """
         above = body.transform(body.skeleton.chain(self._joint("shoulder"))[-2]).rotation
         way = rotate(conjugate(above), subtract(target, body.transform(self._joint("shoulder")).position))
         goal, fault = self._reachable(way)
-        upper_arm = self._upper_arm(goal)
+        upper_arm = self._upper_arm(goal, extent)
         forearm = subtract(goal, upper_arm)
         if fault is None and self._cramped(upper_arm, forearm):
             fault = _TOO_NEAR
@@ -209,9 +212,9 @@ class PointingArm:
             direction, fault = rotate(power(turn, _OPENING / angle(turn)), ahead), _BEHIND
         return scale(direction, max(far, nearest)), fault
 
-    def _upper_arm(self, goal: Vec3) -> Vec3:
-        """Return the vector from shoulder to elbow, m: as straight toward the goal as the forearm allows."""
-        low, high = _LEAST_BEND, _MOST_BEND
+    def _upper_arm(self, goal: Vec3, extent: float) -> Vec3:
+        """Return the vector from shoulder to elbow, m: as straight toward the goal as extent and forearm allow."""
+        low, high = _LEAST_BEND - extent * (_STRETCHED if extent > 0.0 else _BENT), _MOST_BEND
         elbow = self._elbow(goal, low)
         if distance(elbow, goal) >= self._stick:
             return elbow
