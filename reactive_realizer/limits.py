@@ -17,6 +17,8 @@ class Limits:
     """Behaviors in a block."""
     blocks_alive: int = 2_000
     """Accepted blocks that have not ended, of all characters; a client has at most half of what others leave."""
+    behaviors_alive: int = 20_000
+    """Behaviors of these blocks; a client has at most half of what others leave."""
     sync_points_per_block: int = 10_000
     """Sync points of a block, which fails if it has more; a nod has one for each repetition."""
     planning_per_tick: int = 700

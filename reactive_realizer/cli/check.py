@@ -53,7 +53,7 @@ class _Check:
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
         self._checker = realizer.checker()
-        self._procedures: dict[str, None] = {}
+        self._procedures: dict[str, int] = {}
 
     async def findings(self, text: bytes) -> Findings:
         """The findings in a document."""
@@ -66,5 +66,5 @@ class _Check:
             found.mistakes.extend(mistakes)
             found.notes.extend(notes)
             if parsed.procedure is not None:
-                self._procedures[parsed.procedure.id] = None
+                self._procedures[parsed.procedure.id] = len(parsed.procedure.behaviors)
         return found

@@ -1,7 +1,7 @@
 """Admission control: whether blocks and procedures may enter."""
 
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Parsed
 from reactive_realizer.bml.vocabulary import Composition
@@ -28,12 +28,21 @@ class TooManyBlocks(ParsingFault):
     limit: int
 
 
+class TooManyLiveBehaviors(ParsingFault):
+    """A block whose behaviors are over the limit of those of live blocks."""
+
+    code = "too-many-live-behaviors"
+    template = "with it, there would be more than the limit of {limit} behaviors of live blocks; this one is refused"
+    limit: int
+
+
 class TooManyOfOne(ParsingFault):
-    """A block of a client that has more live blocks than are left."""
+    """A block of a client that has more live blocks than are left, or would have more behaviors of them."""
 
     code = "too-many-of-one"
-    template = "this client has {own} live blocks, so the {free} that are left are for others; this one is refused"
+    template = "this client has {own} live {things}, so the {free} that are left are for others; this one is refused"
     own: int
+    things: str
     free: int
 
 
@@ -73,9 +82,9 @@ class Admission:
 
     Args:
         characters: the first one takes blocks that name none.
-        limits: how many blocks may be alive at once, and procedures defined.
+        limits: how many blocks may be alive at once, with how many behaviors, and procedures defined.
         blocks: those that are alive.
-        procedures: ids of the procedures that are defined.
+        procedures: the numbers of behaviors of the procedures that are defined, by id.
     """
 
     def __init__(
@@ -83,7 +92,7 @@ class Admission:
         characters: Sequence[str],
         limits: Limits,
         blocks: Blocks,
-        procedures: Collection[str],
+        procedures: Mapping[str, int],
     ) -> None:
         self._characters = characters
         self._limits = limits
@@ -91,8 +100,9 @@ class Admission:
         self._procedures = procedures
         self._added: set[BlockKey] = set()
         self._replaced: set[str] = set()
-        self._defined: dict[str, None] = {}
+        self._defined: dict[str, int] = {}
         self._numbers = blocks.numbers.copy()
+        self._behaviors = blocks.behaviors.copy()
 
     def refusal(self, parsed: Parsed, client: str = "") -> Fault | None:
         """Admit what was read from a client, or return why not."""
@@ -109,7 +119,7 @@ class Admission:
         if len(self._procedures) + len(self._defined) >= self._limits.procedures:
             fault = TooManyProcedures(limit=self._limits.procedures)
             return fault.located(procedure.location.line, procedure.location.column)
-        self._defined[procedure.id] = None
+        self._defined[procedure.id] = len(procedure.behaviors)
         return None
 
     def admit(self, block: BehaviorBlock, failed: bool = False, client: str = "") -> Fault | None:
@@ -129,13 +139,15 @@ class Admission:
         if not failed and not self._is_alive(key):
             self._added.add(key)
             self._numbers[Lane(client, key.character)] += 1
+            self._behaviors[Lane(client, key.character)] += self._size(block)
         return None
 
     def _replace(self, character: str) -> None:
         """Count all blocks of a character as ended."""
         self._replaced.add(character)
         self._added = {key for key in self._added if key.character != character}
-        self._numbers = Counter({lane: n for lane, n in self._numbers.items() if lane.character != character})
+        self._numbers = _without(character, self._numbers)
+        self._behaviors = _without(character, self._behaviors)
 
     def _is_alive(self, key: BlockKey) -> bool:
         alive = key.character not in self._replaced and self._blocks.get(key) is not None
@@ -148,14 +160,32 @@ class Admission:
             return DuplicateBlock(block=key.block)
         if block.procedure is not None and block.procedure not in (*self._procedures, *self._defined):
             return UnknownProcedure(procedure=block.procedure, known=(*self._procedures, *self._defined))
-        return None if block.composition is Composition.REPLACE else self._overfull(client)
+        return None if block.composition is Composition.REPLACE else self._overfull(client, self._size(block))
 
-    def _overfull(self, client: str) -> Fault | None:
-        """The fault of one more block of a client."""
-        limit, number = self._limits.blocks_alive, sum(self._numbers.values())
-        own = sum(n for lane, n in self._numbers.items() if lane.client == client)
-        if number >= limit:
-            return TooManyBlocks(limit=limit)
-        if client and own > limit - number:
-            return TooManyOfOne(own=own, free=limit - number)
-        return None
+    def _size(self, block: BehaviorBlock) -> int:
+        """The number of behaviors of a block, or of the procedure that it uses."""
+        if block.procedure is None:
+            return len(block.behaviors)
+        return self._defined.get(block.procedure) or self._procedures.get(block.procedure, 0)
+
+    def _overfull(self, client: str, size: int) -> Fault | None:
+        """The fault of one more block of a client, with some behaviors."""
+        limits = self._limits
+        if sum(self._numbers.values()) >= limits.blocks_alive:
+            return TooManyBlocks(limit=limits.blocks_alive)
+        if sum(self._behaviors.values()) + size > limits.behaviors_alive:
+            return TooManyLiveBehaviors(limit=limits.behaviors_alive)
+        return _too_many_of(client, 1, self._numbers, limits.blocks_alive, "blocks") or _too_many_of(
+            client, size, self._behaviors, limits.behaviors_alive, "behaviors"
+        )
+
+
+def _too_many_of(client: str, more: int, numbers: Counter[Lane], limit: int, things: str) -> Fault | None:
+    """The fault of a client that would have more things than were left for others before."""
+    own = sum(number for lane, number in numbers.items() if lane.client == client)
+    free = limit - sum(numbers.values())
+    return TooManyOfOne(own=own, things=things, free=free) if client and own + more - 1 > free else None
+
+
+def _without(character: str, numbers: Counter[Lane]) -> Counter[Lane]:
+    return Counter({lane: number for lane, number in numbers.items() if lane.character != character})

@@ -68,6 +68,7 @@ class Blocks:
 
     Attributes:
         numbers: how many are alive in each lane of a client.
+        behaviors: how many behaviors these have.
         starting: those that are planned, by their starts.
         watch: observes those that are alive.
     """
@@ -75,6 +76,7 @@ class Blocks:
     def __init__(self, remembered: int) -> None:
         self.starting: Agenda[BMLBlock] = Agenda(_start, lambda block: (block.start,))
         self.numbers: Counter[Lane] = Counter()
+        self.behaviors: Counter[Lane] = Counter()
         self.watch = BlockWatch()
         self._remembered = remembered
         self._alive: dict[BlockKey, BMLBlock] = {}
@@ -152,6 +154,7 @@ class Blocks:
         self._alive[block.key] = block
         if block.client != ACCOMPANIST:
             self.numbers[block.lane] += 1
+            self.behaviors[block.lane] += len(block.description.behaviors)
         self._own.add(block.key.character, block)
         if not block.gives_way:
             self._last.add(block.key.character, block)
@@ -163,8 +166,9 @@ class Blocks:
         """Move a block from those alive to those ended."""
         if self._alive.pop(block.key, None) is not None and block.client != ACCOMPANIST:
             self.numbers[block.lane] -= 1
+            self.behaviors[block.lane] -= len(block.description.behaviors)
             if not self.numbers[block.lane]:
-                del self.numbers[block.lane]
+                del self.numbers[block.lane], self.behaviors[block.lane]
         self._own.remove(block.key.character, block)
         self._last.remove(block.key.character, block)
         self._named.remove(block.key.block, block)

@@ -1,6 +1,6 @@
 """The scheduler: takes blocks in, and has them planned, started, played and ended tick by tick (thesis 7.3.4)."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.clock.ticker import next_tick
@@ -239,9 +239,14 @@ class BMLScheduler:
         if parsed.block is not None:
             self._planner.entered(parsed.block.id)
 
-    def admission(self, defined: Iterable[str] = ()) -> Admission:
-        """Admission control for further blocks and procedures, after those with the ids ``defined``."""
-        return Admission(self._routing.characters, self._limits, self.blocks, (*self._procedures.names, *defined))
+    def admission(self, defined: Mapping[str, int] | None = None) -> Admission:
+        """Admission control for further blocks and procedures.
+
+        Args:
+            defined: the numbers of behaviors of procedures that are defined before, by id.
+        """
+        sizes = {**self._procedures.sizes, **defined} if defined else self._procedures.sizes
+        return Admission(self._routing.characters, self._limits, self.blocks, sizes)
 
     # --- a tick
 

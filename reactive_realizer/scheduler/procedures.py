@@ -16,21 +16,22 @@ class _Procedure:
 
 
 class Procedures:
-    """Keeps definitions with their preparations: each use after the first finds the slow work done."""
+    """Keeps definitions with their preparations: each use after the first finds the slow work done.
+
+    Attributes:
+        sizes: the numbers of behaviors of the procedures that are defined, by id.
+    """
 
     def __init__(self, routing: EngineRouting, background: BackgroundWork) -> None:
         self._routing = routing
         self._background = background
         self._procedures: dict[str, _Procedure] = {}
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The ids of the procedures that are defined."""
-        return tuple(self._procedures)
+        self.sizes: dict[str, int] = {}
 
     def define(self, definition: DefineProc) -> None:
         """Keep a definition, which replaces one of the same id, and prepare it for the first character."""
         self._procedures[definition.id] = procedure = _Procedure(definition)
+        self.sizes[definition.id] = len(definition.behaviors)
         self._prepare(procedure, self._routing.characters[0])
 
     def expand(self, block: BehaviorBlock) -> BehaviorBlock:

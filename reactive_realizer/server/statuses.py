@@ -23,6 +23,7 @@ from reactive_realizer.realizer.inbox import TooManyNames
 from reactive_realizer.scheduler.admission import (
     DuplicateBlock,
     TooManyBlocks,
+    TooManyLiveBehaviors,
     TooManyOfOne,
     TooManyProcedures,
     UnknownCharacter,
@@ -78,7 +79,13 @@ STATUSES: Final[Mapping[HTTPStatus, tuple[type[Fault], ...]]] = {
         UtteranceTooLong,
     ),
     HTTPStatus.UNSUPPORTED_MEDIA_TYPE: (WrongMediaType, WrongCharset),
-    HTTPStatus.TOO_MANY_REQUESTS: (TooManyBlocks, TooManyNames, TooManyOfOne, TooManyProcedures),
+    HTTPStatus.TOO_MANY_REQUESTS: (
+        TooManyBlocks,
+        TooManyLiveBehaviors,
+        TooManyNames,
+        TooManyOfOne,
+        TooManyProcedures,
+    ),
     HTTPStatus.SERVICE_UNAVAILABLE: (GoingAway, NoPage, StandsStill, TooManyClients),
 }
 """The kinds of fault by the status that answers a request; for all others, it is 400."""

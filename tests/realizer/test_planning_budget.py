@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.bml.names import BML, BMLT
 from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.realizer.session import replay
 from reactive_realizer.scheduler.block_planner import BlockPlanner, Planned
@@ -194,6 +195,25 @@ async def test_a_client_gets_as_many_blocks_as_are_left_for_others(tmp_path: Pat
         alive = [each.client for each in pilot.realizer.scheduler.blocks.alive]
     assert [alive.count(client) for client in ("first", "second", "third", "")] == [5, 2, 1, 0]
     assert "so the 3 that are left are for others" in "".join(pilot.feedback.raw)
+
+
+async def test_a_client_gets_as_many_behaviors_as_are_left_for_others(tmp_path: Path) -> None:
+    """Also those of procedures."""
+    human = tmp_path / "few.toml"
+    human.write_text(TWO.human.read_text() + "[limits]\nbehaviors_alive = 40\n")
+    names = f'xmlns="{BML}" xmlns:bmlt="{BMLT}"'
+    waits = "".join(f'<wait id="w{i}" duration="9"/>' for i in range(5))
+    async with open_pilot(SceneOptions(human, "text")) as pilot:
+        pilot.perform(f'<bmlt:defineproc {names} id="waits">{waits}</bmlt:defineproc>')
+        for client in ("first", "second", ""):
+            for i in range(9):
+                use = f'<bmlt:useproc {names} procid="waits" bmlid="{client}{i}" characterId="alice"/>'
+                pilot.realizer.put(BmlText(use, client) if i % 2 else BmlText(block(f"{client}{i}", waits), client))
+            await pilot.advance(0.5)
+        alive = [each.client for each in pilot.realizer.scheduler.blocks.alive]
+    assert [alive.count(client) for client in ("first", "second", "")] == [4, 2, 2]
+    assert "this client has 20 live behaviors, so the 20 that are left are for others" in "".join(pilot.feedback.raw)
+    assert "more than the limit of 40 behaviors of live blocks" in "".join(pilot.feedback.raw)
 
 
 async def test_blocks_of_a_character_play_in_order_although_they_are_planned_in_several_ticks(
