@@ -61,7 +61,7 @@ class CharacterSpec:
         idle: degree of its idle animation, 0 to 1; true is 1, and false is 0, for none.
         blink_rate: blinks per minute of idle animation; None for the usual rate.
         liveliness: how lively it is while it speaks, 0 to 1; None for that of the scene.
-        expressivity: of its gestures, pointing and key poses, by the names of the fields of `Expressivity`.
+        expressivity: of its gestures and pointing, by the names of the fields of `Expressivity`.
         weight: of its physical body, kg; None for the usual one of its stature.
         simulation_steps: of its physical body in each tick; None for steps of the usual time.
         bindings: names of files among the assets, by kind; by default `DEFAULT_BINDINGS`.

@@ -11,6 +11,7 @@ from typing import ClassVar
 from reactive_realizer.bml.attribute_types import Duration, Enumeration, Float, Id, Text, Vector
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
+from reactive_realizer.bml.expressivity import MOST
 from reactive_realizer.bml.names import OWN, Location
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, WarpKind
 
@@ -120,6 +121,7 @@ class KeyPose:
         id: name of its time as a sync point; None if it is none.
         warp: time warp of the way to it; None for that of the sequence.
         steepness: of its warp.
+        power: of the way to it (`Expressivity`).
         goals: one or more.
         location: of its element.
     """
@@ -131,6 +133,7 @@ class KeyPose:
     id: str | None = field(default=None, metadata=attribute(Id()))
     warp: WarpKind | None = field(default=None, metadata=attribute(Enumeration(WarpKind)))
     steepness: float = field(default=1.0, metadata=attribute(Float(*STEEPNESS)))
+    power: float = field(default=0.0, metadata=attribute(Float(-MOST, MOST)))
     goals: tuple[KeyPoseGoal, ...]
     location: Location = field(compare=False)
 

@@ -50,7 +50,7 @@ class EngineContext:
         limits: on what the engines read.
         liveliness: how lively it is while it speaks, 0 to 1; None if only a speech may ask for that.
         speech_streams: the sound of speeches that clients send, of all characters.
-        expressivity: of its gestures, pointing and key poses, unless they ask for another one.
+        expressivity: of its gestures and pointing, unless they ask for another one.
     """
 
     character: str

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from reactive_realizer.bml.names import BML
@@ -191,6 +192,25 @@ async def test_a_time_warp_changes_the_course_of_a_hand_and_not_its_times() -> N
     assert natural == pytest.approx(0.5, abs=0.1)
     assert soon > 0.75
     assert late < 0.35
+
+
+async def test_power_straightens_the_way_of_a_hand_and_has_it_pass_its_place_before_it_is_there() -> None:
+    curves, furthest = [], []
+    for power in (-1, 0, 1):
+        there = pose(1.4, place(HERE), 0.3, "there").replace("time", f'power="{power}" time')
+        async with open_pilot() as pilot:
+            pilot.watch()
+            pilot.perform(document(poses("k", "RIGHT_ARM", pose(0.8, place(THERE)), there)))
+            await pilot.advance(2)
+            assert pilot.feedback.warnings == []
+            way = np.array([from_pelvis(at(pilot, time), "r_wrist") for time in np.arange(0.8, 1.71, 1 / FRAMES)])
+        chord = np.subtract(HERE, THERE)
+        shares = (way - THERE) @ chord / (chord @ chord)
+        curves.append(np.linalg.norm(way - THERE - np.outer(shares, chord), axis=1).max())
+        furthest.append(shares.max())
+        assert shares[-3:] == pytest.approx(1.0, abs=0.01)
+    assert curves[2] < curves[1] < curves[0]
+    assert furthest[2] > max(furthest[:2]) + 0.01
 
 
 async def test_goals_that_cannot_be_met_are_named_with_their_lines_and_the_others_are_met() -> None:

@@ -245,10 +245,9 @@ def test_what_is_complete_of_a_truncated_script_plays() -> None:
 
 
 def test_what_is_not_realized_is_named_once() -> None:
-    pose = "TIME_POINT:+{}\nNUCLEUS:1\n" + position()
-    text = "BEGIN NUCLEUS\nNUCLEUS_ID:1\nPOWER:1\nEND\n" + script(pose.format(200), pose.format(900))
+    text = script(*(f"TIME_POINT:+{time}\nTIME_WARP:SIN;2\n{position()}" for time in (200, 900)))
     ((line, sentence),) = problems(text)
-    assert (line, sentence.partition(":")[0]) == (9, "NUCLEUS has no effect")
+    assert (line, sentence.partition(" has")[0]) == (5, "TIME_WARP:SIN")
 
 
 def test_autonomous_behaviors_change_the_parameters_of_idle_animation() -> None:

@@ -1,7 +1,7 @@
 """Reads EMBRScript as blocks of BML (A. Heloir and M. Kipp, "Real-time animation of interactive agents", 2010)."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Final
@@ -10,6 +10,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import CAST, BehaviorBlock, Parsed, Problem
 from reactive_realizer.bml.dialects import Dialect
 from reactive_realizer.bml.embr.faults import NoSequence
+from reactive_realizer.bml.embr.nucleus import Nuclei
 from reactive_realizer.bml.embr.sequence import SequenceReader
 from reactive_realizer.bml.embr.syntax import NUCLEUS, RESET, Node, read_nodes
 from reactive_realizer.bml.embr.values import Notes
@@ -74,7 +75,9 @@ def _refused(*faults: Fault) -> Parsed:
     return Parsed(None, tuple(Problem(fault, BLOCK) for fault in faults))
 
 
-def _sections(nodes: Iterable[Node], limits: Limits) -> list[_Section]:
+def _sections(nodes: Sequence[Node], limits: Limits) -> list[_Section]:
+    notes = Notes(limits)
+    nuclei = Nuclei(nodes, notes)
     sections: list[_Section] = []
     current: dict[str, _Section] = {}
     reset: Location | None = None
@@ -87,11 +90,10 @@ def _sections(nodes: Iterable[Node], limits: Limits) -> list[_Section]:
             value = node.values.get("CHARACTER")
             character = value.text if value else ""
             if character not in current:
-                notes = sections[0].notes if sections else Notes(limits)
                 current[character] = _Section(character, reset is not None, reset or node.location, notes)
                 sections.append(current[character])
             section = current[character]
-            reader = SequenceReader(node, f"sequence{number}", section.notes)
+            reader = SequenceReader(node, f"sequence{number}", nuclei, section.notes)
             section.behaviors += reader.behaviors()
     return sections
 

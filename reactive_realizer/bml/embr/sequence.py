@@ -10,6 +10,7 @@ from reactive_realizer.bml.attribute_types import Id
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.embr.faults import BadValue, UnknownName
 from reactive_realizer.bml.embr.goals import GOALS, read_goal
+from reactive_realizer.bml.embr.nucleus import Nuclei
 from reactive_realizer.bml.embr.syntax import AUTONOMOUS, CLIP, MORPH, Node
 from reactive_realizer.bml.embr.timeline import Timed, sequence_start, timed
 from reactive_realizer.bml.embr.values import Notes
@@ -58,12 +59,13 @@ class SequenceReader:
         behaviors: that it means, each with its id and start; their order counts from 0.
     """
 
-    def __init__(self, node: Node, name: str, notes: Notes) -> None:
+    def __init__(self, node: Node, name: str, nuclei: Nuclei, notes: Notes) -> None:
         """Read a sequence.
 
         Args:
             node: its element.
             name: of the sequence; ids of its behaviors begin with it.
+            nuclei: of the script.
             notes: receives the faults of what is left out.
         """
         self._node, self._name, self._notes = node, name, notes
@@ -74,7 +76,7 @@ class SequenceReader:
         self._weights: dict[tuple[str, str], list[_Step]] = {}
         self._changes: list[tuple[Timed, Node, str, float]] = []
         self._clips: list[Timed] = []
-        for each in timed(node, self._start, notes):
+        for each in nuclei.expressed(timed(node, self._start, notes)):
             if each.node.name == CLIP:
                 self._clips.append(each)
             else:
@@ -120,9 +122,6 @@ class SequenceReader:
     # --- key poses
 
     def _take(self, at: Timed) -> None:
-        if "NUCLEUS" in at.node.values:
-            place = at.node.values["NUCLEUS"].location
-            self._notes.left_out("NUCLEUS", "the expressivity of poses is not changed", place)
         groups: dict[BodyGroup, list[tuple[Node, KeyPoseGoal]]] = {}
         for constraint in at.node.children:
             try:
@@ -187,6 +186,7 @@ class SequenceReader:
                 id=step.id,
                 warp=step.warp[0],
                 steepness=step.warp[1],
+                power=step.at.power,
                 goals=step.goals,
                 location=step.place,
             )

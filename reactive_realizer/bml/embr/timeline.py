@@ -9,7 +9,7 @@ from reactive_realizer.bml.embr.syntax import CLIP, Node
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.errors import RealizerError
 
-_SHORTEST: Final = 0.04
+SHORTEST: Final = 0.04
 """Duration of a way to a pose that would have none, s, as in EMBR."""
 
 _ROUNDING: Final = 1e-9
@@ -24,12 +24,14 @@ class Timed:
         begins: the end of what is before it.
         reached: its time.
         left: the end of its hold.
+        power: of the way to it.
     """
 
     node: Node
     begins: float
     reached: float
     left: float
+    power: float = 0.0
 
 
 def sequence_start(node: Node, notes: Notes) -> float:
@@ -59,6 +61,6 @@ def timed(node: Node, start: float, notes: Notes) -> Iterator[Timed]:
         time = round(time if relative else time - start, 6)
         if time < last - _ROUNDING:
             notes.add(TimeBack(time=time, earliest=last), child.values["TIME_POINT"].location)
-        reached = time if time > last + _ROUNDING else round(last + _SHORTEST, 6)
+        reached = time if time > last + _ROUNDING else round(last + SHORTEST, 6)
         yield Timed(child, last, reached, round(reached + hold, 6))
         last = round(reached + hold, 6)

@@ -5,14 +5,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
+from reactive_realizer.bml.expressivity import Expressivity
 from reactive_realizer.bml.key_poses import KeyPose, KeyPoses
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.time_warps import warped
 from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.joints import HEAD, TRUNK
+from reactive_realizer.embodiment.joints import HEAD, SIDES, TRUNK
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGoals, NotReachable, WrongElement
 from reactive_realizer.engines.animation.key_poses.solved_pose import Missed, SolvedPose
@@ -42,6 +44,7 @@ class Key(NamedTuple):
         profile: of the way.
         pose: the state.
         location: of its element in the document.
+        power: of the way (`Expressivity`).
     """
 
     begins: float
@@ -50,6 +53,7 @@ class Key(NamedTuple):
     profile: Profile
     pose: SolvedPose
     location: Location
+    power: float
 
 
 class KeyPosesMotionUnit(MotionUnit):
@@ -98,12 +102,24 @@ class KeyPosesMotionUnit(MotionUnit):
         body = carried_as_shown(moment.body, moment.body, moment.shown) if moment.shown else moment.body
         number = max(0, bisect_right(self._begins, time) - 1)
         key = self._keys[number]
-        there = self._rotations(number, body, moment)
+        there: Mapping[str, Quat] = self._rotations(number, body, moment)
         if time < key.reached:
             done = key.profile(share(time, key.begins, key.reached))
             here = self._first if number == 0 else self._rotations(number - 1, body, moment)
-            there = {joint: slerp(here[joint], goal, done) for joint, goal in there.items()}
+            there = self._on_way(key, here, there, done, moment.body, share(time, key.begins, key.reached))
         return MotionPose(there, self._weight(time))
+
+    def _on_way(
+        self, key: Key, here: Mapping[str, Quat], there: Mapping[str, Quat], done: float, body: Body, time: float
+    ) -> Mapping[str, Quat]:
+        """Return the rotations on the way to a key pose, after a share of its time; power changes that of a hand."""
+        turned = {joint: slerp(here[joint], goal, done) for joint, goal in there.items()}
+        if key.power == 0.0:
+            return turned
+        sides = (side for side in SIDES if turned.keys() >= {f"{side}_shoulder", f"{side}_elbow"})
+        expressivity = Expressivity(power=key.power)
+        way = Way(here, there, done, expressivity.curvature, expressivity.arriving(time))
+        return on_way([CarriedArm.of(body.skeleton, side) for side in sides], turned, way, body)
 
     def _rotations(self, number: int, body: Body, moment: Moment) -> dict[str, Quat]:
         """Return the rotations of all joints in a key pose."""
@@ -160,7 +176,8 @@ class KeyPosesMaker:
         for pose in behavior.poses:
             solved = goals.solved(pose.goals)
             if solved is not None:
-                keys.append(Key(left, pose.time, pose.time + pose.hold, _speed(pose, behavior), solved, pose.location))
+                speed = _speed(pose, behavior)
+                keys.append(Key(left, pose.time, pose.time + pose.hold, speed, solved, pose.location, pose.power))
             left = pose.time + pose.hold
         if not keys:
             raise RealizerError(goals.notes[0] if len(goals.notes) == 1 else NoGoals(reasons=goals.reasons))
