@@ -35,8 +35,10 @@ _PREDICTION: dict[str | None, str] = {None: BML, "bmla": BMLA, "rr": OWN}
 _MARK = f"t{uuid4().hex}"
 """Marks the places of times in a template; no input contains it."""
 _ATTRIBUTES: dict[type[Behavior], frozenset[str]] = {}
-_TEMPLATE_CHARACTERS = 16 * 1024 * 1024
-"""Characters of the templates that are kept: those of twenty thousand nods, or of ten behaviors of the largest size."""
+_TEMPLATE_BYTES = 16 * 1024 * 1024
+"""Size of the templates that are kept: those of ten thousand nods, or of ten behaviors of the largest size."""
+_TEMPLATE_BASE = 1400
+"""Size of a template without its characters, bytes: its strings, lists and sets."""
 _BMLA, _RR = f' xmlns:bmla="{BMLA}"', f' xmlns:rr="{OWN}"'
 _ESCAPES = {'"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 _PLAIN = re.compile(r"[\w:.+-]*").fullmatch
@@ -219,7 +221,7 @@ class _TemplateKey(NamedTuple):
     syncs: tuple[str, ...]
 
 
-_TEMPLATES: SizedCache[_TemplateKey, _Template] = SizedCache(_TEMPLATE_CHARACTERS)
+_TEMPLATES: SizedCache[_TemplateKey, _Template] = SizedCache(_TEMPLATE_BYTES)
 """The templates that were used last: a behavior is predicted again whenever its times move."""
 
 
@@ -237,7 +239,7 @@ def _predicted(block: str, prediction: BehaviorPrediction) -> str:
     template = _TEMPLATES.get(key)
     if template is None:
         template = _template(*key)
-        _TEMPLATES.add(key, template, len(key.source) + sum(map(len, template.texts)))
+        _TEMPLATES.add(key, template, _TEMPLATE_BASE + len(key.source) + sum(map(len, template.texts)))
     text = template.texts[0]
     for sync, following in zip(template.syncs, template.texts[1:], strict=True):
         text += seconds(times[sync]) + following

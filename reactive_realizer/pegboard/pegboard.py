@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import islice
+from typing import Any
 
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time, has_passed, is_due
@@ -12,7 +13,7 @@ from reactive_realizer.pegboard.peg_key import ANTICIPATORS, BlockKey, PegKey, a
 from reactive_realizer.pegboard.peg_view import Explanation, PegView, explain, view_of
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, TimeCell, TimePeg, time_of
 from reactive_realizer.reactive.cell import replace_cell
-from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.reactive.graph import Cell, Graph
 
 _PREDICTED = BlockKey("", ANTICIPATORS)
 
@@ -91,6 +92,16 @@ class PegBoard:
             RealizerError: there is no such point.
         """
         return explain(self._point(key))
+
+    def followers(self, key: PegKey) -> int:
+        """The number of pegs that depend on a named one, directly or through others; 0 for an unknown name."""
+        found = set[Cell[Any]]()
+        waiting: list[Cell[Any]] = [self._pegs[key]] if key in self._pegs else []
+        while waiting:
+            new = [each for each in waiting.pop().dependents if each not in found]
+            found.update(new)
+            waiting += new
+        return len(found)
 
     def explain_block(self, block: BlockKey) -> Iterator[tuple[str, object]]:
         """The name and the explanation of every point of a block, as objects that `json.dumps` takes.

@@ -16,6 +16,7 @@ from reactive_realizer.pegboard.peg_key import PegKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.realizer.anticipator_streams import AnticipatorStreams
 from reactive_realizer.realizer.inputs import BmlText, Event, Input, Prediction, Push, TargetMoved
+from reactive_realizer.realizer.prediction_turns import PredictionTurns, Waiting
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -47,8 +48,9 @@ class Inbox:
         self._streams = streams
         self._world = world
         self._limits = limits
-        self._waiting: list[tuple[GlobalTime, int, Input]] = []
+        self._waiting: list[Waiting] = []
         self._put = 0
+        self._turns = PredictionTurns(board.followers)
         self._waiting_points: set[PegKey] = set()
         """Points of the predictions that wait."""
         self._new_points: set[PegKey] = set()
@@ -92,14 +94,15 @@ class Inbox:
             raise RealizerError(TooManyNames(limit=limit, things="predicted points"))
 
     def take(self, now: GlobalTime) -> tuple[Input, ...]:
-        """Remove and return the inputs whose time has come, in order."""
-        due = [entry for at, _, entry in sorted(self._waiting, key=lambda each: each[:2]) if is_due(at, now)]
-        self._waiting = [waiting for waiting in self._waiting if not is_due(waiting[0], now)]
+        """Remove and return the inputs whose time has come, in order, without predictions that wait for their turn."""
+        due = sorted((each for each in self._waiting if is_due(each[0], now)), key=lambda each: each[:2])
+        entering, held = self._turns.choose(due, now)
+        self._waiting = [*held, *(each for each in self._waiting if not is_due(each[0], now))]
         self._waiting_points, self._new_points = set(), set()
         for entry in self.waiting:
             if isinstance(entry, Prediction):
                 self._note(entry)
-        return tuple(due)
+        return tuple(entering)
 
     def deliver(self, entries: Sequence[Input], now: GlobalTime) -> list[tuple[str, AnticipatorEvent]]:
         """The events and predictions of clients as events for anticipators, by id; invalid ones are skipped."""

@@ -13,8 +13,8 @@ from reactive_realizer.sized_cache import SizedCache
 _REMEMBERED_BYTES: Final = 16 * 1024 * 1024
 """Size of the utterances that are remembered for repetition: six minutes of speech at 22 kHz."""
 
-_BYTES_A_CHARACTER: Final = 50
-"""Size of an utterance without its sound: a word takes 200 to 300 bytes."""
+_BYTES_A_CHARACTER: Final = 70
+"""Size of an utterance without its sound: a word takes 200 to 400 bytes."""
 
 
 class NothingToSay(CreationFault):
