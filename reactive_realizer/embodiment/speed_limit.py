@@ -110,7 +110,9 @@ class SpeedLimit:
         """Let joints, and the root if it is one of them, be at once where they are wanted, when they are shown next."""
         root = wanted.root if ROOT in joints else self._shown.root
         released = {joint: wanted.rotation(joint) for joint in joints}
-        self._shown, self._goal = self._shown.posed(released, root), self._goal.posed(released)
+        behind = self._shown is not self._goal
+        self._shown = self._shown.posed(released, root)
+        self._goal = self._goal.posed(released) if behind else self._shown
         self._places = {wrist: _from_root(wrist, self._shown) for wrist in _WRISTS}
 
     def __call__(self, wanted: Body, duration: float) -> Body:
