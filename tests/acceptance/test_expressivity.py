@@ -13,6 +13,7 @@ from reactive_realizer.embodiment.vector import Vec3, dot, subtract, unit
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .expressive_motion import Performance, accelerations, gesture, parameters, performed, pointing
+from .parameter_changes import change
 
 PREPARATION, SWING_HOLD, STROKE, RETURN, HOLD, RETRACTION = range(6)
 CLAP = """<ProcAnimation prefDuration="0.6">
@@ -216,6 +217,80 @@ async def test_spatial_extent_stretches_a_pointing_arm() -> None:
         played = await play(pointing(spatialExtent=value))
         reach.append(np.linalg.norm(played.at(played.points["stroke"])))
     assert reach[0] + 0.05 < reach[1] < reach[2]
+
+
+# --- while it plays
+
+
+def fastest(pilot: RealizerPilot) -> float:
+    """The greatest acceleration of the right wrist in all frames, m/s^2."""
+    return float(accelerations(pilot.path("r_wrist")).max())
+
+
+async def test_a_change_of_extent_makes_a_playing_gesture_larger_and_leaves_its_points(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    widths = []
+    for more in ("", change("p", 'start="1.4" end="2"', target="g", parameter="spatialExtent", targetValue=1)):
+        played = await performed(pilot, gesture("WAVE", syncs='start="0.2" end="4"') + more, 5.0)
+        late = (played.frames > played.points["start"] + 2.0) & (played.frames < played.points["relax"])
+        widths.append(np.ptp(played.hand[late], axis=0)[0])
+        points = [played.points[point] - played.points["start"] for point in ("stroke", "relax", "end")]
+        assert points == pytest.approx([points[0], points[1], 3.8], abs=0.01)
+    assert widths[1] == pytest.approx(1.5 * widths[0], rel=0.1)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_hand_follows_changes_ten_times_a_second_within_its_limits(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    pilot.block("b", gesture("CONDUCT", syncs='start="0.2" end="5"'))
+    values = np.random.default_rng(1).uniform(-1, 1, 40)
+    for number, value in enumerate(values):
+        name = ("spatialExtent", "power", "fluidity", "temporalExtent")[number % 4]
+        pilot.block(f"c{number}", change("p", 'start="0"', target="b:g", parameter=name, targetValue=value))
+        await pilot.advance(0.1)
+    await pilot.advance(2)
+    assert fastest(pilot) < 60.0
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_a_jump_while_another_number_changes_is_smooth_too(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    pilot.block("b", pointing("greensphere", syncs='start="0" stroke="0.7"', spatialExtent=1))
+    await pilot.advance(0.2)
+    pilot.block("c", change("p", 'start="0"', target="b:g", parameter="spatialExtent", targetValue=-1))
+    await pilot.advance(0.1)
+    pilot.block("d", change("p", 'start="0"', target="b:g", parameter="power", type="instant", targetValue=0.5))
+    await pilot.advance(3)
+    assert fastest(pilot) < 60.0
+
+
+@pytest.mark.parametrize("way", ["interrupt", "REPLACE"])
+async def test_an_expressive_gesture_can_be_broken_off_at_any_time(pilot: RealizerPilot, way: str) -> None:
+    pilot.watch()
+    for number in range(6):
+        pilot.block(f"b{number}", gesture("CHOP", power=1, spatialExtent=1, fluidity=-1, temporalExtent=-1))
+        await pilot.advance(0.4 + 0.2 * number)
+        if way == "interrupt":
+            pilot.block(f"i{number}", f'<bmla:interrupt id="i" target="b{number}"/>')
+        else:
+            pilot.block(f"i{number}", '<head id="h" lexeme="NOD"/>', composition="REPLACE")
+        await pilot.advance(0.8)
+    assert fastest(pilot) < 60.0
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_stroke_that_a_prediction_moves_keeps_its_expressivity(pilot: RealizerPilot) -> None:
+    pilot.watch()
+    pilot.predict("t", "hit", 1.5)
+    pilot.block("b", gesture("CHOP", syncs='stroke="anticipators:t:hit"', power=1, spatialExtent=1))
+    await pilot.advance(0.6)
+    for later in (1.7, 1.6, 1.9):
+        pilot.predict("t", "hit", later)
+        await pilot.advance(0.1)
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:g:stroke") == pytest.approx(1.9)
+    assert fastest(pilot) < 60.0
+    assert pilot.feedback.warnings == []
 
 
 # --- where it comes from

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from math import inf
 from typing import NamedTuple
 
@@ -38,6 +38,9 @@ PhaseEnds = tuple[str, str]
 """The sync points at the ends of a phase."""
 
 _NO_HOLDS: frozenset[PhaseEnds] = frozenset()
+
+_MUCH_MORE = 2.0
+"""Factor between the changes of a parameter in two frames from which on it may have jumped."""
 
 _MOST_TIMINGS = 1000
 """Number of cached timings: most motions are planned repeatedly."""
@@ -150,7 +153,7 @@ class AnimationUnit(PlanUnit):
         self.yields = candidate.yields
         self.shown = Layer(motion.kind, {}, 0.0)
         self._played: tuple[float, ...] = ()
-        self._changing = False
+        self._changes: tuple[float, ...] = ()
         # What it showed before that.
         self._former = self.shown
         self.shown_at = GlobalTime(-inf)
@@ -303,10 +306,11 @@ class AnimationUnit(PlanUnit):
         return self.shown
 
     def _parameters_jumped(self) -> bool:
-        """Return whether parameters of the motion have changed since the last call, but not just before."""
+        """Return whether a parameter of the motion has changed since the last call, by much more than just before."""
         played, self._played = self._played, self._values()
-        changed, self._changing = self._changing, played != self._played
-        return self._changing and not changed
+        before, self._changes = self._changes, _changes(played, self._played)
+        pairs = zip_longest(self._changes, before, fillvalue=0.0)
+        return any(abs(change) > _MUCH_MORE * abs(last) for change, last in pairs)
 
     def _values(self) -> tuple[float, ...]:
         """Return the values of the parameters that may change while it plays."""
@@ -398,6 +402,11 @@ def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, flo
     limits = _Limits(first, last, *(motion.stretch or (0.0, inf)))
     shortest = tuple(motion.shortest.items())
     return _timing(tuple(keys.items()), motion.preferred_duration, shortest, limits, holds, behavior.persistent)
+
+
+def _changes(before: Sequence[float], after: Sequence[float]) -> tuple[float, ...]:
+    """Return the differences of values; nothing if there is none."""
+    return () if before == after else tuple(new - old for old, new in zip(before, after, strict=True))
 
 
 def _jumps(former: Layer, before: Layer, after: Layer) -> bool:

@@ -129,7 +129,7 @@ class GestureMotionUnit(MotionUnit):
         self._stroke_shape: ExpressiveStroke | None = None
         self.stretch = timing.stretch
         self._authored = self._durations(timing.duration, parameters.get(HOLD, 0.0))
-        durations = self.durations(self._expressivity())
+        durations = self.durations(self._expressivity(tuple(self.parameters.values())))
         self.preferred_duration = sum(each.preferred for each in durations)
         self.key_positions = gesture_key_positions([each.preferred for each in durations])
         outer = [self.key_positions[point] for point in _INNER]
@@ -137,10 +137,10 @@ class GestureMotionUnit(MotionUnit):
         self.shortest, self.retraction = shortest_phases(durations), durations[-1].shortest
         self._phases = StrokePhases.of(self.key_positions, self.preferred_duration)
 
-    def _expressivity(self) -> Expressivity:
-        """Return the present expressivity."""
-        values = {name: self.parameters[name] for name in self._expressive}
-        return Expressivity.of(values) if any(values.values()) else NEUTRAL
+    def _expressivity(self, values: tuple[float, ...]) -> Expressivity:
+        """Return the expressivity for values of all parameters."""
+        numbers = values[1 : 1 + len(self._expressive)]
+        return Expressivity.of(dict(zip(self._expressive, numbers, strict=True))) if any(numbers) else NEUTRAL
 
     @property
     def _shape(self) -> ExpressiveStroke:
@@ -220,12 +220,13 @@ class GestureMotionUnit(MotionUnit):
     def pose(self, moment: Moment) -> MotionPose:
         """Return the rotations of arms and fingers; retraction fades to the layers below."""
         keys, phase, rotations = self.key_positions, moment.phase, dict[str, Quat]()
-        expressivity = self._expressivity()
+        values = tuple(self.parameters.values())
+        expressivity = self._expressivity(values)
         later = phase
         if self._trailing is not None and moment.shown is not None:
             later = self._trailing(phase, moment.time)
         for arm, at in zip(self._arms, (phase, later), strict=False):
-            stroke = self._stroke(arm, at, moment, expressivity)
+            stroke = self._stroke(arm, at, moment, values, expressivity)
             if at < keys["ready"]:
                 stroke = self._prepared(stroke, minimum_jerk(share(at, 0.0, keys["ready"])), moment.body, expressivity)
             rotations |= stroke
@@ -244,7 +245,7 @@ class GestureMotionUnit(MotionUnit):
 
     def preparation(self, body: Body) -> PhaseDuration:
         """Return the duration of the preparation from a body."""
-        return self._preparation(body, self._expressivity())
+        return self._preparation(body, self._expressivity(tuple(self.parameters.values())))
 
     def _preparation(self, body: Body, expressivity: Expressivity) -> PhaseDuration:
         ready = self._animation.sample(self._inner[0], self.parameters, body).rotations
@@ -259,9 +260,11 @@ class GestureMotionUnit(MotionUnit):
         """Return a pose of the stroke with expressivity (`ExpressiveStroke`)."""
         return self._shape.expressed(rotations, body, expressivity, along, self.parameters[AMOUNT])
 
-    def _stroke(self, arm: _Stroke, phase: float, moment: Moment, expressivity: Expressivity) -> Mapping[str, Quat]:
+    def _stroke(
+        self, arm: _Stroke, phase: float, moment: Moment, values: tuple[float, ...], expressivity: Expressivity
+    ) -> Mapping[str, Quat]:
         """Return the pose of an arm at a phase. It is constant during preparation and retraction."""
-        key = (self._animation_phase(phase, expressivity), *self.parameters.values())
+        key = (self._animation_phase(phase, expressivity), *values)
         if key != arm.sampled_at or not arm.animation.independent:
             arm.sampled_at, arm.pose = key, self._sampled(arm.animation, key[0], moment)
         if expressivity == NEUTRAL:
