@@ -107,10 +107,8 @@ async def test_the_capabilities_list_elements_and_lexemes(on_air: Open) -> None:
         assert capabilities["elements"]["speech"]["parameters"] == {"volume": volume, "rate": factor, "pitch": factor}
         assert capabilities["elements"]["wait"]["parameters"] == {}
         parameters = capabilities["parameters"]
-        assert (
-            parameters.items()
-            >= {"gesture": ["amount"], "head": ["amount"], "speech": ["pitch", "rate", "volume"]}.items()
-        )
+        assert "amount" in parameters["gesture"]
+        assert parameters.items() >= {"head": ["amount"], "speech": ["pitch", "rate", "volume"]}.items()
         lexemes = {"gesture": "BEAT", "head": "TOSS", "faceLexeme": "RAISE_BROWS", "pose": "ARMS_CROSSED"}
         assert all(word in capabilities["lexemes"][element] for element, word in lexemes.items())
         assert "alice" in capabilities["targets"]
