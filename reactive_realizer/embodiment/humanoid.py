@@ -21,6 +21,7 @@ from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, d
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.turn_weights import turns
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, distance, scale, subtract
+from reactive_realizer.embodiment.way import Way
 
 
 class EyePose(NamedTuple):
@@ -74,6 +75,8 @@ class Humanoid:
         self.weight, self.simulation_steps = weight, simulation_steps
         self.place = Place(position, heading)
         """Where it stands; the next move takes place there."""
+        self.way: Callable[[], Way] = Way
+        """Where it goes from there, and on which prints."""
         self._shown_place = self._place_before = self.place
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
         self._faced = frozenset(avatar.skeleton.joints).difference(EYES)

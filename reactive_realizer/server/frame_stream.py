@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.realizer.realizer import Realizer
+from reactive_realizer.server.frame_watch import FrameWatch
 from reactive_realizer.server.socket_writer import binary_message
-from reactive_realizer.server.subscribers import Subscribers
 
 _HEADER = struct.Struct("<BBHIdHH3f")
 _KIND, _VERSION = 1, 1
@@ -54,30 +54,19 @@ class FrameStream:
 
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
-        self._subscribers: Subscribers[bytes] = Subscribers()
+        self._watch: FrameWatch[bytes] = FrameWatch(realizer, self._send)
         self._indices = {id_: index for index, id_ in enumerate(realizer.characters)}
         self._sequences = {id_: count() for id_ in realizer.characters}
-        self._look_away: Callable[[], None] | None = None
 
     def subscribe(self, listener: Callable[[bytes], None]) -> Callable[[], None]:
         """Gives a listener the frames of each tick, as one message ready to be written to its socket.
 
         The returned function ends that.
         """
-        leave = self._subscribers.subscribe(listener)
-        if self._look_away is None:
-            self._look_away = self._realizer.watch(self._send)
-
-        def leave_and_look_away() -> None:
-            leave()
-            if not self._subscribers and self._look_away is not None:
-                self._look_away()
-                self._look_away = None
-
-        return leave_and_look_away
+        return self._watch.subscribe(listener)
 
     def _send(self, frames: Mapping[str, Frame]) -> None:
-        self._subscribers.publish(binary_message(b"".join(map(self._encode, frames, frames.values()))))
+        self._watch.publish(binary_message(b"".join(map(self._encode, frames, frames.values()))))
 
     def _encode(self, id_: str, frame: Frame) -> bytes:
         rotations = self._realizer.characters[id_].humanoid.avatar.bone_rotations(frame.rotations)

@@ -20,6 +20,7 @@ from reactive_realizer.server.client_limits import Clients
 from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
 from reactive_realizer.server.protocol import VERSION, Message
+from reactive_realizer.server.steps_stream import StepsStream
 
 _YOUNG, _OLDER = 20_000, 1_000
 """Number of new objects that trigger a collection of these, which takes some milliseconds: a frame of 100 characters in
@@ -70,7 +71,7 @@ class LiveScene:
         session: id of this run.
         ticker: source of the ticks.
         tick: number of the last tick.
-        feedback, sounds, frames, board: the streams.
+        feedback, sounds, frames, steps, board: the streams.
         clients: the connected clients.
         found: files found at the start, for `capabilities_of`.
     """
@@ -85,6 +86,7 @@ class LiveScene:
         self.feedback = FeedbackLog(self.session, clock.epoch, self.limits)
         self.sounds = AudioStream(self.limits.sound_bytes)
         self.frames = FrameStream(self.realizer)
+        self.steps = StepsStream(self.realizer)
         self.board = BoardStream(self.realizer.board, lambda: self.realizer.time)
         self.clients = Clients(self.limits.clients)
         self.found = found_for(scene) if found is None else found

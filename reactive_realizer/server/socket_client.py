@@ -99,6 +99,8 @@ class SocketClient:
             stack.callback(self._live.sounds.takers.subscribe(self._queue.put))
         if Stream.BOARD in self._streams:
             stack.callback(self._live.board.subscribers.subscribe(self._queue.put))
+        if Stream.STEPS in self._streams:
+            stack.callback(self._live.steps.subscribe(self._queue.put))
         if Stream.FRAMES in self._streams:
             stack.callback(self._live.frames.subscribe(self._show))
 

@@ -16,13 +16,14 @@ class Stream(StrEnum):
     SOUND = "sound"
     FRAMES = "frames"
     BOARD = "board"
+    STEPS = "steps"
 
 
 _DEFAULT = frozenset({Stream.FEEDBACK, Stream.AUDIO, Stream.FRAMES})
 
 
 def streams_of(query: Mapping[str, str]) -> frozenset[Stream]:
-    """The streams in a query such as ``streams=feedback,frames``; by default all but sound and board.
+    """The streams in a query such as ``streams=feedback,frames``; by default all but sound, board and steps.
 
     Raises:
         RealizerError: "bad-query".

@@ -321,3 +321,19 @@ async def test_physics_is_turned_on_and_off_and_a_figure_that_is_pushed_over_is_
         await expect(page.locator("#feedback")).to_contain_text("late:w:end")
         assert (await page.evaluate(head))[1] == pytest.approx(tall, abs=0.03)
         assert await page.locator("#feedback .row.fall").count() == 1
+
+
+async def test_the_path_and_the_footprints_of_a_walk_are_asked_for_and_shown_while_their_button_is_pressed(
+    serve: Serve,
+) -> None:
+    async with serve(ALICE) as scene:
+        page = await scene.open()
+        async with page.expect_websocket() as opened:
+            await page.click("#steps-switch")
+        socket = await opened.value
+        assert socket.url.endswith("?streams=steps")
+        await send(page, f'<bml {BML} id="go"><locomotion id="w" target="0.8 1"/></bml>')
+        await page.wait_for_function("() => viewer.footprints('alice') > 4")
+        async with socket.expect_event("close"):
+            await page.click("#steps-switch")
+        assert await page.evaluate("viewer.footprints('alice')") == 0

@@ -2,6 +2,7 @@
 
 import struct
 
+import numpy as np
 import pytest
 
 from anticipators.metronome import Metronome
@@ -210,6 +211,44 @@ async def test_the_peg_list_is_sent_at_most_five_times_a_second(on_air: Open) ->
         while (message := await page.hear())["type"] != "clock":
             times.append(message["time"])
         assert times == [0.0, 0.0, 0.2, 0.4, 0.6, 0.8]  # the first one when the client subscribed
+
+
+WALK = f'<bml {BML} id="go"><locomotion id="w" target="0 2" start="0.2"/></bml>'
+
+
+async def test_paths_and_footprints_are_sent_on_request_while_a_character_walks(on_air: Open) -> None:
+    async with on_air(TWO) as air:
+        page, planner = await air.connect("?streams=steps"), await air.connect("?streams=")
+        assert (await planner.ask(type="bml", xml=WALK))["type"] == "accepted"
+        await air.tick_until(6.0)
+        await page.say(type="clock")
+        steps = []
+        while (message := await page.hear())["type"] != "clock":
+            steps.append(message)
+        assert {message["character"] for message in steps} == {"alice"}
+        paths = [message["path"] for message in steps if message["path"]]
+        assert paths[0][0] == pytest.approx([0.0, 0.0], abs=0.05)
+        assert {tuple(path[-1]) for path in paths} == {(0.0, 2.0)}
+        made = {(foot["side"], *foot["position"]) for message in steps for foot in message["prints"] if foot["made"]}
+        assert 6 <= len(made) <= 12
+        assert all((x > 0.0) == (side == "left") for side, x, _ in made)
+        assert max(z for *_, z in made) == pytest.approx(2.0, abs=0.1)
+        assert all(foot["heading"] == pytest.approx(0.0, abs=5.0) for each in steps for foot in each["prints"])
+        assert (steps[-1]["path"], steps[-1]["prints"]) == ([], [])
+        times = [message["time"] for message in steps]
+        assert min(np.diff(times)) > 0.095
+
+
+async def test_nobody_asks_where_characters_step_without_a_request(
+    on_air: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async with on_air() as air:
+        socket = await air.connect("?streams=frames")
+        asked: list[object] = []
+        monkeypatch.setattr(air.live.realizer.characters["alice"].humanoid, "way", lambda: asked.append(1))
+        assert (await socket.ask(type="bml", xml=WALK))["type"] == "accepted"
+        await air.tick_until(2.0)
+        assert asked == []
 
 
 async def test_an_unchanged_peg_list_is_not_sent(on_air: Open) -> None:

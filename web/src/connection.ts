@@ -152,6 +152,8 @@ export class Connection {
       case "board":
         this.listener.onBoard(message);
         break;
+      case "steps":
+        break; // these come by a socket of their own
       case "audio":
       case "caption":
       case "audio_move":

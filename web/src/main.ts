@@ -2,6 +2,7 @@ import { makeTabs } from "./dom";
 import { Film } from "./film";
 import { shotOf } from "./framing";
 import { StatusPanel } from "./panels/status";
+import { StepsPanel } from "./panels/steps";
 import type { Position } from "./protocol";
 import type { SpeechRecord } from "./speech";
 import { Viewer } from "./viewer";
@@ -9,6 +10,9 @@ import { type Quality, qualityOf } from "./viewport";
 
 const STREAMS = "feedback,audio,sound,frames,board";
 const FILM_STREAMS = "audio,frames";
+
+/** Asked for by a socket of its own, while its overlay is shown. */
+const STEPS_STREAMS = "steps";
 
 /** The state of the page as browser tests read it, from `window.viewer`; nothing in it can be changed. */
 export interface ViewerState {
@@ -25,6 +29,8 @@ export interface ViewerState {
   bone(characterId: string, name: string): Position | null;
   /** Present weight of a morph. */
   morph(characterId: string, name: string): number | null;
+  /** Number of footprints shown, of which the last may be one that is not made yet. */
+  footprints(characterId: string): number;
 }
 
 declare global {
@@ -42,7 +48,7 @@ function socketAddress(streams: string): URL {
   return address;
 }
 
-function stateOf(viewer: Viewer): ViewerState {
+function stateOf(viewer: Viewer, steps: StepsPanel): ViewerState {
   return Object.freeze({
     quality: viewer.quality,
     get connected() {
@@ -62,13 +68,15 @@ function stateOf(viewer: Viewer): ViewerState {
     },
     bone: (characterId: string, name: string) => viewer.characters.bone(characterId, name),
     morph: (characterId: string, name: string) => viewer.characters.morph(characterId, name),
+    footprints: (characterId: string) => steps.footprints(characterId),
   });
 }
 
 function startViewer(status: StatusPanel): void {
   makeTabs(["feedback-tab", "pegs-tab"]);
   const viewer = new Viewer(socketAddress(STREAMS), qualityOf(location.href), status);
-  window.viewer = stateOf(viewer);
+  const steps = new StepsPanel(socketAddress(STEPS_STREAMS), viewer.scene);
+  window.viewer = stateOf(viewer, steps);
   viewer.start();
 }
 

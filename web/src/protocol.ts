@@ -59,6 +59,7 @@ export type ServerMessage =
   | AudioGain
   | AudioStop
   | Board
+  | Steps
   | Accepted
   | Refused;
 /**
@@ -75,6 +76,13 @@ export type CaptionedWord = [number, number, number];
  * @maxItems 3
  */
 export type Change = [string, number | null, number | null];
+/**
+ * x and z of a point on the ground, in meters.
+ *
+ * @minItems 2
+ * @maxItems 2
+ */
+export type Spot = [number, number];
 /**
  * In answers to bml: the ids of the accepted blocks, in order; empty if no block could be read or accepted.
  */
@@ -354,6 +362,25 @@ export interface Commit {
   time: Seconds;
   cause: string;
   changes: Change[];
+}
+/**
+ * The path of a character from where it is to where it goes, straight between points, and the prints of its feet. Sent while they change to clients that request the stream steps; both are empty for a character that stands.
+ */
+export interface Steps {
+  type: "steps";
+  time: Seconds;
+  character: string;
+  path: Spot[];
+  prints: Footprint[];
+}
+/**
+ * A print below the ankle of a foot, and where the foot points, in degrees to the left of +z. It is not made yet while the foot is on its way there.
+ */
+export interface Footprint {
+  side: "left" | "right";
+  position: Spot;
+  heading: number;
+  made: boolean;
 }
 /**
  * The message with this ref has taken effect; feedback reports its results.

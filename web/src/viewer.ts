@@ -1,3 +1,5 @@
+import type { Scene } from "three";
+
 import { Characters } from "./characters";
 import type { Frame, Sound } from "./binary";
 import { FrameClock, PlayoutClock, PlayoutDelay } from "./clock";
@@ -59,6 +61,11 @@ export class Viewer implements ConnectionListener {
     new AnticipatorsPanel(this.connection, status.report);
     this.physics = new PhysicsPanel(this.connection, (id) => this.characters.forward(id), status.report);
     this.bindButtons();
+  }
+
+  /** Where overlays are drawn. */
+  get scene(): Scene {
+    return this.viewport.scene;
   }
 
   /** Connects, and starts to play. */

@@ -27,6 +27,9 @@ import type { Position } from "./protocol";
  */
 export type Quality = "low" | "normal" | "high";
 
+/** The layer of objects that cast no shadow on the floor, not even that of what stands near it. */
+export const OVERLAY = 1;
+
 /** Least time between two reports of the camera's position, ms. */
 const REPORT_INTERVAL = 200;
 
@@ -116,6 +119,7 @@ export class Viewport {
   }
 
   private orbit(canvas: HTMLCanvasElement): OrbitControls {
+    this.camera.layers.enable(OVERLAY);
     const controls = new OrbitControls(this.camera, canvas);
     controls.enableDamping = true;
     controls.minDistance = 0.4;

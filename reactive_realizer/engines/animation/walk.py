@@ -33,6 +33,7 @@ class Walk:
         self._carriage = Carriage()
         self.feet: tuple[Transform, ...] = ()
         self._walking, self._time = 0.0, GlobalTime(0.0)
+        humanoid.way = self._walker.way
 
     @property
     def active(self) -> bool:

@@ -108,6 +108,14 @@ class Progression:
         return Place((self.x.at, self._height, self.z.at), self.heading.at)
 
     @property
+    def path(self) -> tuple[Ground, ...]:
+        """The points from where the frame is to its goal; none if it goes nowhere."""
+        if self.goal is None:
+            return ()
+        x, _, z = self.goal.place.position
+        return ((self.x.at, self.z.at), *self._corners, (x, z))
+
+    @property
     def speed(self) -> float:
         """Over the ground, m/s."""
         return math.hypot(self.x.speed, self.z.speed)

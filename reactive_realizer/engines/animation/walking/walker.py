@@ -10,6 +10,7 @@ from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.place import Place, between_headings
 from reactive_realizer.embodiment.quaternion import conjugate, multiply
 from reactive_realizer.embodiment.vector import Vec3, distance
+from reactive_realizer.embodiment.way import Footprint, Way
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.walking.manner import WALK
 from reactive_realizer.engines.animation.walking.progression import Goal, Progression
@@ -135,6 +136,11 @@ class Walker:
     def rest(self) -> None:
         """End the walk of a figure that has arrived."""
         self.progression, self.feet = Progression(self.progression.place), ()
+
+    def way(self) -> Way:
+        """Return where the figure goes, and on which prints."""
+        prints = tuple(Footprint(foot.goal, foot.swing is None) for foot in self.feet)
+        return Way(self.progression.path if self.feet else (), prints)
 
     def over_ground(self) -> tuple[Vec3, ...]:
         """Return where the feet are in the figure's frame, without their height, m; left first."""
