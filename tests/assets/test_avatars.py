@@ -7,8 +7,15 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from PIL import Image
+
+from reactive_realizer.assembly.assets import Assets
+from reactive_realizer.binding.mouth_shapes import VISEMES
+from reactive_realizer.binding.viseme_binding import VisemeBinding
+from reactive_realizer.embodiment.face_mesh import FaceMesh
+from reactive_realizer.embodiment.face_names import BEYOND_ARKIT, OCULUS
 
 AVATARS = Path(__file__).resolve().parents[2] / "reactive_realizer" / "assets" / "avatars"
 PATHS = [AVATARS / "female.glb", AVATARS / "male.glb"]
@@ -135,16 +142,43 @@ def test_the_figure_stands_in_a_t_pose_and_faces_forward(avatar: Gltf) -> None:
     assert 0.8 < place["Hips"][1] < place["Head"][1] < 1.7
 
 
-def test_the_face_has_the_52_blend_shapes_of_arkit_in_the_order_of_their_names(avatar: Gltf) -> None:
-    face = next(mesh for mesh in avatar["meshes"] if mesh["name"] == "Face")
+def test_the_face_has_the_52_blend_shapes_of_arkit_in_the_order_of_their_names_and_others_after_them(
+    avatar: Gltf,
+) -> None:
+    face, eyes = (next(mesh for mesh in avatar["meshes"] if mesh["name"] == name) for name in ("Face", "Eyes"))
+    names = face["extras"]["targetNames"]
     assert len(ARKIT_SHAPES) == 52
-    assert face["extras"]["targetNames"] == ARKIT_SHAPES
-    assert {len(primitive["targets"]) for primitive in face["primitives"]} == {52}
+    assert names[:52] == ARKIT_SHAPES
+    assert names[-15:] == [*OCULUS]
+    assert {*names[52:-15], *eyes["extras"]["targetNames"]} == {*BEYOND_ARKIT}
+    assert {len(primitive["targets"]) for primitive in face["primitives"]} == {len(names)}
 
 
-def test_blend_shapes_move_only_the_face(avatar: Gltf) -> None:
+def test_blend_shapes_move_only_the_face_and_the_eyes(avatar: Gltf) -> None:
     deformed = {mesh["name"] for mesh in avatar["meshes"] for part in mesh["primitives"] if "targets" in part}
-    assert deformed == {"Face"}
+    assert deformed == {"Face", "Eyes"}
+
+
+def test_the_visemes_of_oculus_are_the_mouth_shapes_of_lip_sync(path: Path) -> None:
+    mesh = FaceMesh.read(path)
+    shapes = VisemeBinding.read((), mesh.moves, Assets()).shapes
+    for viseme, name in zip(VISEMES, OCULUS, strict=True):
+        # Moves of less than 0.04 mm are left out of the file.
+        assert mesh.moves[name] == pytest.approx(mesh.displacement(shapes[viseme].morphs), abs=4e-4)
+
+
+def test_a_dilated_pupil_is_wider_and_both_lids_stay(path: Path) -> None:
+    mesh = FaceMesh.read(path)
+    for side, sign in (("Left", 1.0), ("Right", -1.0)):
+        moved = np.abs(mesh.moves[f"eyeDilation{side}"]).max(axis=1) > 1e-5
+        edge = sign * mesh.vertices[moved]
+        assert edge[:, 0].min() > 0.01, "only this eye moves"
+        middle = mesh.vertices[moved].mean(axis=0)[:2]
+        before = np.linalg.norm(mesh.vertices[moved][:, :2] - middle, axis=1)
+        after = np.linalg.norm((mesh.vertices + mesh.moves[f"eyeDilation{side}"])[moved][:, :2] - middle, axis=1)
+        assert (after > before).all()
+        narrow = (mesh.vertices + mesh.moves[f"eyeConstrict{side}"])[moved][:, :2]
+        assert (np.linalg.norm(narrow - middle, axis=1) < before).all()
 
 
 def test_skin_has_color_occlusion_and_roughness_of_2048_pixels(path: Path, avatar: Gltf) -> None:

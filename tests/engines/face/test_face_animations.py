@@ -94,7 +94,11 @@ async def test_an_animation_neither_starts_nor_ends_with_a_jump(pilot: RealizerP
         ("", '<FaceInterpolator parts="jawOpen">1 0 1 1</FaceInterpolator>', "the times of the rows do not increase"),
         ("", '<FaceInterpolator parts="">0 0 1 1</FaceInterpolator>', "parts names nothing that moves"),
         ('type="FACS"', '<FaceInterpolator parts="12.UP">0 0 1 1</FaceInterpolator>', "'12.UP' is not an action unit"),
-        ('type="FAPS"', '<FaceInterpolator parts="27">0 0 1 9</FaceInterpolator>', "the avatar has no eyeThrustLeft"),
+        (
+            'type="FAPS"',
+            '<FaceInterpolator parts="3">0 0 1 -9</FaceInterpolator>',
+            "negative values of the facial animation parameter 3",
+        ),
     ],
 )
 async def test_keyframes_that_cannot_be_played_are_warned_of(

@@ -5,7 +5,7 @@ figure faces +z and its left is +x. The same input gives the same bytes.
 
 The steps, each a module or two:
 
-1. body shape and rig: `makehuman`, `rig`, `mouth`, `body`
+1. body shape and rig: `makehuman`, `rig`, `mouth`, `further_shapes`, `body`
 2. clothes: `cloth`, `top`, `lowered_arms`, `neckline`, `pants`, `shoes`
 3. hair, eyes and teeth: `skull`, `ribbon`, `strands`, `hair`, `bob`, `crop`, `eyes`, `teeth`
 4. skin: `texels`, `head_map`, `hairline`, `face_masks`, `occlusion`, `skin_paint`, `head_texture`, `body_texture`

@@ -1,5 +1,6 @@
 """Builds one avatar from the data and writes its file."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from bake.body import Body
 from bake.body_texture import paint_body
 from bake.characters import CHARACTERS
-from bake.eyes import build_eyes
+from bake.eyes import build_eyes, eye_moves
 from bake.face import face_parts
 from bake.glb import Glb, Json
 from bake.hair import build_hair
@@ -46,9 +47,10 @@ def bake(data: MakeHuman, name: str, path: Path) -> None:
     materials = make_materials(glb, body.character, paint_head(body, head, light), painted)
     writer = PrimitiveWriter(glb, body, materials)
     meshes = [_face(writer, body, [*face_parts(body, head, skin, covered)])]
-    eyes = build_eyes(body)
-    parts = [uncovered, _part("Eyes", eyes), *garments, _part("Hair", hair)]
-    meshes += [{"name": part.name, "primitives": [writer.write(part)]} for part in parts]
+    meshes.append(_mesh("Body", writer.write(uncovered)))
+    eyes = replace(_part("Eyes", build_eyes(body)), moves=eye_moves(body))
+    meshes.append(_shaped("Eyes", [writer.write_face(eyes, shaded=False)], list(eyes.moves or ())))
+    meshes += [_mesh(part.name, writer.write(part)) for part in (*garments, _part("Hair", hair))]
     nodes, bound = _nodes(body.rig, meshes), glb.accessor(_inverse_bind_matrices(body.rig))
     index = {node["name"]: i for i, node in enumerate(nodes)}
     document = {
@@ -88,13 +90,18 @@ def _body_part(body: Body, head: HeadMap, skin: Array, covered: Mask) -> Part:
 
 
 def _face(writer: PrimitiveWriter, body: Body, parts: list[Part]) -> Json:
-    targets = list(body.face_units)
-    return {
-        "name": "Face",
-        "primitives": [writer.write_face(part, shaded=part.name == "Head") for part in parts],
-        "weights": [0] * len(targets),
-        "extras": {"targetNames": targets},
-    }
+    primitives = [writer.write_face(part, shaded=part.name == "Head") for part in parts]
+    return _shaped("Face", primitives, list(body.shapes))
+
+
+def _mesh(name: str, primitive: Json) -> Json:
+    return {"name": name, "primitives": [primitive]}
+
+
+def _shaped(name: str, primitives: list[Json], targets: list[str]) -> Json:
+    """A mesh with blend shapes."""
+    extras = {"targetNames": targets}
+    return {"name": name, "primitives": primitives, "weights": [0] * len(targets), "extras": extras}
 
 
 def _nodes(rig: Rig, meshes: list[Json]) -> list[Json]:

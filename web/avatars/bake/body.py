@@ -3,6 +3,7 @@
 import numpy as np
 
 from bake.characters import Character
+from bake.further_shapes import parameter_shapes, visemes
 from bake.makehuman import DECIMETER, BaseMesh, MakeHuman
 from bake.mesh import vertex_normals
 from bake.mouth import close_lips, place_mouth
@@ -25,6 +26,7 @@ class Body:
         weights: (v, joints) bone weights.
         turns: (v, 3, 3) how the T-pose turned each vertex: face units are turned likewise.
         face_units: (v, 3) m by ARKit name, before that turn.
+        shapes: all blend shapes of the face likewise, the face units first.
         triangles: (t, 3) of the skin, without helpers.
         uvs: (t, 3, 2) original texture coordinates of the skin.
         normals: (v, 3) of the skin, unit.
@@ -36,7 +38,7 @@ class Body:
         self._data = data
         self._base = data.base_mesh()
         count = len(self._base.positions)
-        self.face_units = data.face_units(count)
+        self.shapes = self.face_units = data.face_units(count)
         shaped = self._shape(self._base, character)
         rig = read_rig(data.rig(), shaped, self.groups)
         self.weights = bind(rig, data.rig_weights(), self.groups, count)
@@ -49,6 +51,8 @@ class Body:
         inside = self.is_inside_mouth
         close_lips(self.positions, self.triangles[~inside], self.triangles[inside], self.moved("jawOpen")[:, 1])
         self.normals = vertex_normals(self.positions, self.triangles)
+        self.shapes = {**self.face_units, **parameter_shapes(data, self.positions, self.groups, self.places)}
+        self.shapes |= visemes(self.face_units)
 
     def _shape(self, base: BaseMesh, character: Character) -> Array:
         positions = base.positions
@@ -93,7 +97,7 @@ class Body:
 
     def moved(self, unit_name: str) -> Array:
         """The displacement of each vertex by a face unit at full strength: (v, 3) m in the T-pose."""
-        return np.einsum("vij,vj->vi", self.turns, self.face_units[unit_name])
+        return np.einsum("vij,vj->vi", self.turns, self.shapes[unit_name])
 
     def triangles_of(self, *groups: str) -> tuple[Indices, Array]:
         """Triangles and original texture coordinates of groups; quads are split along the shorter diagonal."""

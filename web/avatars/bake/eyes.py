@@ -4,6 +4,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from bake.body import Body
+from bake.further_shapes import EYE_MOVE
 from bake.images import jpeg, normal_map, picture, shrunk
 from bake.mesh import Mesh, grid_triangles, merge
 from bake.numeric import Array, Color, smoothstep, unit, value_noise
@@ -16,28 +17,67 @@ _IRIS, _PUPIL = 0.50, 0.205
 _WHITE, _VEIN, _COLLARETTE, _BLACK = [228, 217, 207], [205, 110, 98], [150, 104, 56], [8, 7, 8]
 
 
+_WIDER, _NARROWER = 0.10, -0.08
+"""By which angle the edge of a dilated and of a constricted pupil moves outward, rad."""
+
+
 def build_eyes(body: Body) -> Mesh:
     """Both eyes."""
     return merge([_eyeball(body, side) for side, _ in SIDES])
 
 
+def eye_moves(body: Body) -> dict[str, Array]:
+    """The displacements of the vertices of both eyes by their blend shapes: (v, 3) m by name."""
+    moves: dict[str, Array] = {}
+    polar, pupil, iris = _polar(), np.arcsin(_PUPIL / 0.98), np.arcsin(_IRIS / 0.98)
+    edge = smoothstep(0.0, pupil, polar) * smoothstep(iris, pupil, polar)
+    for name, turn in (("eyeConstrict", _NARROWER), ("eyeDilation", _WIDER)):
+        for side, _ in SIDES:
+            moved = _surface(body, side, polar + turn * edge) - _surface(body, side, polar)
+            moves[name + side] = _of_both(side, moved)
+    for name, move in (("eyeThrust", EYE_MOVE), ("eyeSink", -EYE_MOVE)):
+        for side, _ in SIDES:
+            moves[name + side] = _of_both(side, np.tile((0.0, 0.0, move), (_RINGS * _SECTORS, 1)))
+    return moves
+
+
+def _of_both(side: str, moves: Array) -> Array:
+    """The displacements of both eyes when one moves."""
+    return np.concatenate([moves if side == each else np.zeros(moves.shape) for each, _ in SIDES])
+
+
 def _eyeball(body: Body, side: str) -> Mesh:
     """Two thirds of a sphere with a bulging cornea that follows its eye joint."""
-    center = body.places[side + "Eye"]
-    radius = np.abs(body.positions[body.groups[eye_group(side)]][:, 0] - center[0]).max() * 0.995
-    polar = np.r_[0, np.linspace(0.05, 1, _RINGS - 1) ** 1.15 * 2.0][:, None]
-    around = (np.arange(_SECTORS) / _SECTORS * 2 * np.pi)[None]
-    outward = np.stack(
-        [np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar) + 0 * around], -1
-    ).reshape(-1, 3)
-    bulge = np.repeat(0.045 * smoothstep(0.62, 0.0, polar), _SECTORS)
-    positions = center + radius * outward * (1 + bulge)[:, None]
+    polar, around = _polar(), _around()
+    positions = _surface(body, side, polar)
     disc = np.where(polar < np.pi / 2, np.sin(polar), 1.0)
     uvs = np.stack([0.5 + 0.49 * disc * np.cos(around), 0.5 - 0.49 * disc * np.sin(around)], -1).reshape(-1, 2)
     triangles = grid_triangles(_RINGS, _SECTORS, closed=True)[:, [0, 2, 1]]
     weights = np.zeros((len(positions), len(body.rig.names)))
     weights[:, body.rig.index(side + "Eye")] = 1
-    return Mesh(positions, weights, triangles, uvs[triangles], normals=unit(positions - center))
+    return Mesh(positions, weights, triangles, uvs[triangles], normals=unit(positions - body.places[side + "Eye"]))
+
+
+def _polar() -> Array:
+    """The angles of the rings from the middle of the pupil: (rings, 1), rad."""
+    return np.r_[0, np.linspace(0.05, 1, _RINGS - 1) ** 1.15 * 2.0][:, None]
+
+
+def _around() -> Array:
+    """The angles of the sectors: (1, sectors), rad."""
+    return (np.arange(_SECTORS) / _SECTORS * 2 * np.pi)[None]
+
+
+def _surface(body: Body, side: str, polar: Array) -> Array:
+    """The points (n, 3) of an eye on rings at angles (rings, 1) from the middle of the pupil, rad."""
+    center, around = body.places[side + "Eye"], _around()
+    radius = np.abs(body.positions[body.groups[eye_group(side)]][:, 0] - center[0]).max() * 0.995
+    outward = np.stack(
+        [np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar) + 0 * around], -1
+    ).reshape(-1, 3)
+    bulge = np.repeat(0.045 * smoothstep(0.62, 0.0, polar), _SECTORS)
+    positions: Array = center + radius * outward * (1 + bulge)[:, None]
+    return positions
 
 
 def paint_eye(iris: Color, size: int = 512) -> tuple[bytes, bytes]:

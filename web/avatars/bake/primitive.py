@@ -1,4 +1,4 @@
-"""From meshes to glTF primitives: welded vertices, four bones each, the ARKit blend shapes."""
+"""From meshes to glTF primitives: welded vertices, four bones each, blend shapes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,6 +25,7 @@ _SHADED = (
     "mouthFunnel",
     "jawOpen",
     "eyeBlink",
+    "viseme_",
 )
 _SMALLEST_TURN = 0.06
 _TURN = 0.65
@@ -40,7 +41,7 @@ class Part:
         mesh: in the T-pose.
         normals: (v, 3) of its vertices.
         material: name.
-        moves: (v, 3) m by face unit; None where its vertices are those of the base mesh.
+        moves: (v, 3) m by blend shape; None where its vertices are those of the base mesh.
     """
 
     name: str
@@ -78,7 +79,7 @@ class PrimitiveWriter:
         return self._write(part, _weld(part.mesh))
 
     def write_face(self, part: Part, *, shaded: bool) -> Json:
-        """A primitive with all blend shapes; shaded turns normals too, if its vertices are those of the base mesh."""
+        """A primitive with its blend shapes; shaded turns normals too, if its vertices are those of the base mesh."""
         welded = _weld(part.mesh)
         return self._write(part, welded) | {"targets": self._targets(part, welded.source, shaded)}
 
@@ -115,7 +116,7 @@ class PrimitiveWriter:
     def _targets(self, part: Part, source: Indices, shaded: bool) -> list[Json]:
         nothing: int | None = None
         targets = []
-        for name in self._body.face_units:
+        for name in self._body.shapes if part.moves is None else part.moves:
             moves = (self._body.moved(name) if part.moves is None else part.moves[name])[source]
             moving = np.abs(moves).max() > _SMALLEST_MOVE
             position = self._glb.sparse(moves, _SMALLEST_MOVE) if moving else None

@@ -202,7 +202,7 @@ def jaw_moves(body: Body, group: str, points: Array) -> dict[str, Array]:
     """How the face units move points (n, 3) as they move a group of vertices: an affine map fitted to each."""
     at = np.c_[body.positions[body.groups[group]], np.ones(len(body.groups[group]))]
     moves = {}
-    for unit in body.face_units:
+    for unit in body.shapes:
         fit = np.linalg.lstsq(at, body.moved(unit)[body.groups[group]], rcond=None)[0]
         moves[unit] = np.c_[points, np.ones(len(points))] @ fit
     return moves
