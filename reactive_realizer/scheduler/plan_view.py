@@ -32,6 +32,7 @@ class PlanView:
         lurking: ids of behaviors on the board that have not begun. They are checked when they begin; until then, times
             from outside may bring them out of order, or before their block.
         shortest: duration that the body needs for each phase, s, by the id of the behavior.
+        cut: the points that were cut; what comes after them keeps its time.
     """
 
     timings: Mapping[str, Timing]
@@ -46,6 +47,7 @@ class PlanView:
     settled: frozenset[Tie | Precedence] = frozenset()
     lurking: frozenset[str] = frozenset()
     shortest: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    cut: frozenset[Point] = frozenset()
 
     @classmethod
     def of_solution(cls, problem: SchedulingProblem, solution: Solution) -> Self:
@@ -87,6 +89,7 @@ class PlanView:
             frozenset(block.settled.union(waited, missed, (each.tie for each in late))),
             frozenset(unit.behavior.id for unit in block.units if not unit.begun),
             {unit.behavior.id: unit.shortest for unit in block.units},
+            frozenset(key for key, point in points.items() if point.cut),
         )
 
     @property

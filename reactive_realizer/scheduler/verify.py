@@ -166,7 +166,7 @@ def _earliness(plan: PlanView, cluster: Collection[str]) -> float:
     for order, (later, earlier) in inside.items():
         if later and not earlier:
             gap = missed(order, *map(plan.time, order.nodes))
-            room = min(room, 0.0 if gap == -inf else -gap)
+            room = min(room, 0.0 if gap == -inf or not plan.cut.isdisjoint(order.nodes) else -gap)
     return room
 
 

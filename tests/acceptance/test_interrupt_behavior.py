@@ -34,6 +34,18 @@ async def test_a_block_is_interrupted_at_the_start_of_the_interrupt(pilot: Reali
     assert pilot.feedback.status("stop") == "DONE"
 
 
+async def test_a_behavior_that_comes_after_a_cut_point_keeps_its_time(pilot: RealizerPilot) -> None:
+    after = '<constraint><after ref="s:end"><sync ref="n:start"/></after></constraint>'
+    send(pilot, "talk", TALK + '<head id="n" lexeme="NOD"/>' + after)
+    await pilot.advance(0.4)
+    planned = pilot.feedback.predicted("talk:n:start")
+    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.1" exclude="n"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.time("talk:s:end") == pytest.approx(0.5)
+    assert pilot.feedback.time("talk:n:start") == planned
+    assert pilot.feedback.warnings == []
+
+
 async def test_excluded_behaviors_continue_and_their_block_ends_as_done(pilot: RealizerPilot) -> None:
     send(pilot, "talk", TALK + BEAT)
     send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.5" exclude="g"/>')
