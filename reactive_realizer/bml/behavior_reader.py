@@ -23,6 +23,8 @@ from reactive_realizer.bml.extensions import Emit, FaceKeyframe, Keyframe, Param
 from reactive_realizer.bml.faults import ProcedureInBlock, UnknownBehavior
 from reactive_realizer.bml.key_pose_reader import read_key_poses
 from reactive_realizer.bml.key_poses import KeyPoses
+from reactive_realizer.bml.murml.behavior_part import read_murml, wrapped
+from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.speech_descriptions import read_speech_description, unspoken, unused_times
 from reactive_realizer.bml.trees import (
     PARAMETER,
@@ -50,6 +52,8 @@ _READ_PARTS: Final[Mapping[type[Behavior], Callable[[Tree, BlockSource, list[Fau
     FaceKeyframe: read_interpolator,
     Emit: read_event,
     KeyPoses: read_key_poses,
+    MurmlGesture: read_murml,
+    MurmlFace: read_murml,
 }
 
 
@@ -143,7 +147,7 @@ def _described(tree: Tree, description: Tree, source: BlockSource, notes: list[F
     Raises:
         RealizerError: it cannot be read.
     """
-    inside = list(description)
+    inside = [wrapped(child, tree, description, source) for child in list(description)]
     element = _element_of(inside[0]) if len(inside) == 1 else None
     if element is None:
         return None

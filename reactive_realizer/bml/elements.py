@@ -42,16 +42,17 @@ from reactive_realizer.bml.extensions import (
 )
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS
+from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS, MURML
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """The element of a behavior in BML 1.0, BMLA, BMLT or our own extensions.
+    """The element of a behavior in BML 1.0, BMLA, BMLT, MURML or our own extensions.
 
     Attributes:
         name: local name.
-        namespace: of BML 1.0, its core extensions, BMLA, BMLT or our own.
+        namespace: of BML 1.0, its core extensions, BMLA, BMLT, MURML or our own.
         behavior: class of the behavior.
         attributes: its attributes other than sync points.
     """
@@ -101,7 +102,7 @@ def _element(behavior: type[Behavior]) -> Element:
 def _name(behavior: type[Behavior]) -> str:
     """The name of an element: camelCase in BML 1.0, lowercase in the others."""
     name = behavior.__name__
-    return name.lower() if behavior.NAMESPACE in CONTINUOUS else name[0].lower() + name[1:]
+    return name.lower() if behavior.NAMESPACE in (*CONTINUOUS, MURML) else name[0].lower() + name[1:]
 
 
 _BEHAVIORS = (
@@ -137,6 +138,8 @@ _BEHAVIORS = (
     FaceKeyframe,
     KeyPoses,
     IdleChange,
+    MurmlGesture,
+    MurmlFace,
 )
 
 ELEMENTS: Mapping[str, Element] = MappingProxyType({each.name: each for each in map(_element, _BEHAVIORS)})

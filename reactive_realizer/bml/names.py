@@ -20,6 +20,8 @@ CONTINUOUS: Final = (BMLA, BMLT)
 """The namespaces of continuous interaction; a name that both have means the same in both."""
 SBM: Final = "urn:smartbody"
 """What the prefix of SmartBody's own elements and attributes stands for, which no script declares."""
+MURML: Final = "http://www.techfak.uni-bielefeld.de/ags/soa/murml"
+"""MURML, the gesture language of ACE and AsapRealizer."""
 OWN: Final = "urn:reactive-realizer:1"
 """The extensions of this realizer."""
 

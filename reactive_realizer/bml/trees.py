@@ -6,7 +6,7 @@ from typing import Final
 
 from lxml import etree
 
-from reactive_realizer.bml.names import BML, BML_EXT, CONTINUOUS, OWN
+from reactive_realizer.bml.names import BML, BML_EXT, CONTINUOUS, MURML, OWN
 
 Tree = etree._Element
 """An element with its content."""
@@ -36,13 +36,13 @@ def is_continuous(tree: Tree) -> bool:
 
 
 def is_part(child: Tree, tree: Tree) -> bool:
-    """Whether a child is in the language of its parent: BML 1.0, or continuous interaction or our own if its parent is.
+    """Whether a child is in the language of its parent: BML 1.0, or its parent's: continuous interaction, MURML, our own.
 
     A parameter is in BMLT, and any behavior may contain it.
     """
     if name_of(child) == PARAMETER:
         return is_continuous(child) or is_continuous(tree)
-    own = namespace_of(child) == OWN == namespace_of(tree)
+    own = namespace_of(child) == namespace_of(tree) in (MURML, OWN)
     return is_core(child) or own or (is_continuous(child) and is_continuous(tree))
 
 

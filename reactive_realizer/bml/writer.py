@@ -11,6 +11,7 @@ from reactive_realizer.bml.behavior import Behavior, Description
 from reactive_realizer.bml.behaviors import Face, Posture, Speech, Wait
 from reactive_realizer.bml.extensions import BehaviorParameter, FaceKeyframe, Keyframe, ParameterValueChange
 from reactive_realizer.bml.key_poses import KeyPose, KeyPoses
+from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.trees import PARAMETER, Tree
 
@@ -85,6 +86,10 @@ def _interpolator(behavior: Keyframe | FaceKeyframe) -> Iterator[Tree]:
         yield etree.fromstring(behavior.interpolator)
 
 
+def _murml(behavior: MurmlGesture | MurmlFace) -> Iterator[Tree]:
+    yield etree.fromstring(behavior.content)
+
+
 def _text(speech: Speech) -> Iterator[Tree]:
     """The ``<text>`` of a speech, with its marks."""
     ends = [*(mark.char_index for mark in speech.marks[1:]), len(speech.text)]
@@ -106,6 +111,8 @@ _CHILDREN: Final[Mapping[type[Behavior], Callable[[Any], Iterator[Tree]]]] = Map
         Keyframe: _interpolator,
         FaceKeyframe: _interpolator,
         KeyPoses: _key_poses,
+        MurmlGesture: _murml,
+        MurmlFace: _murml,
     }
 )
 """The content of elements."""

@@ -22,6 +22,7 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.extensions import FACES, MOTIONS
 from reactive_realizer.bml.key_poses import KeyPoses
+from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.vocabulary import BodyGroup, PosePart
 
 
@@ -38,13 +39,13 @@ class BodyPart(Enum):
 
 _PARTS: dict[type[Behavior], frozenset[BodyPart]] = {
     **dict.fromkeys((Speech, RecordedSpeech), frozenset({BodyPart.VOICE})),
-    Gesture: frozenset({BodyPart.ARMS}),
+    **dict.fromkeys((Gesture, MurmlGesture), frozenset({BodyPart.ARMS})),
     Pointing: frozenset({BodyPart.ARMS}),
     Head: frozenset({BodyPart.HEAD}),
     HeadDirectionShift: frozenset({BodyPart.HEAD}),
     # The eyes stay on their target while the head nods, so a gaze leaves it free.
     **dict.fromkeys((Gaze, GazeShift), frozenset({BodyPart.EYES})),
-    **dict.fromkeys((Face, FaceFacs, FaceLexeme, FaceShift, *FACES), frozenset({BodyPart.FACE})),
+    **dict.fromkeys((Face, FaceFacs, FaceLexeme, FaceShift, MurmlFace, *FACES), frozenset({BodyPart.FACE})),
     Locomotion: frozenset({BodyPart.TRUNK}),
     **dict.fromkeys(MOTIONS, frozenset({BodyPart.HEAD, BodyPart.EYES, BodyPart.ARMS, BodyPart.TRUNK})),
 }

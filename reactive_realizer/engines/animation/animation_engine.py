@@ -24,6 +24,7 @@ from reactive_realizer.bml.behaviors import (
 from reactive_realizer.bml.extensions import MOTIONS
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
+from reactive_realizer.bml.murml.behaviors import MurmlGesture
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
@@ -101,6 +102,7 @@ class AnimationEngine(DefaultEngine):
 
     behaviors = MOTIONS | {
         KeyPoses,
+        MurmlGesture,
         IdleChange,
         Gesture,
         Head,
@@ -337,7 +339,7 @@ class AnimationEngine(DefaultEngine):
         self, now: GlobalTime, playing: Sequence[AnimationUnit], layers: Iterable[Layer], standing: float
     ) -> tuple[Layer, ...]:
         """Return the layer in which trunk and pelvis follow gesturing and pointing arms."""
-        arms = [unit.shown for unit in playing if isinstance(unit.behavior, (Gesture, Pointing)) and unit.live]
+        arms = [unit.shown for unit in playing if isinstance(unit.behavior, (Gesture, MurmlGesture, Pointing)) and unit.live]
         if not arms and self._trunk_following.rests:
             return ()
         directed = any(layer.kind is LayerKind.GAZE and not _HEAD.isdisjoint(layer.rotations) for layer in layers)

@@ -36,6 +36,7 @@ from reactive_realizer.engines.animation.motions.gesture import GestureMaker
 from reactive_realizer.engines.animation.motions.key_poses import KeyPosesMaker
 from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
+from reactive_realizer.engines.animation.motions.murml import MurmlMaker
 from reactive_realizer.engines.animation.motions.noise import NoiseMaker
 from reactive_realizer.engines.animation.motions.pointing import PointingMaker
 from reactive_realizer.engines.animation.motions.posture import PostureMaker
@@ -60,6 +61,7 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "noise": NoiseMaker,
         "transition": TransitionMaker,
         "key-poses": KeyPosesMaker,
+        "MURML": MurmlMaker,
         "locomotion": LocomotionMaker,
         "posture": PostureMaker,
         "posture-shift": PostureMaker,

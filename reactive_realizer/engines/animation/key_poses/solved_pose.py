@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import Quat, slerp
@@ -35,6 +35,46 @@ class SolvedRotations(NamedTuple):
 
     rotations: Mapping[str, Quat]
     missed: Missed | None = None
+
+
+class JointPose(Protocol):
+    """The state of some joints in a key pose."""
+
+    @property
+    def joints(self) -> frozenset[str]:
+        """The joints that it turns."""
+        ...
+
+    def solve(self, body: Body, rest: Mapping[str, Quat]) -> SolvedRotations:
+        """Return the rotations of its joints.
+
+        Args:
+            body: whose trunk carries arms and head.
+            rest: rotations of its joints without goals.
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class SeveralPoses:
+    """The states of several groups of joints, such as both arms.
+
+    Attributes:
+        poses: of different joints.
+    """
+
+    poses: tuple[JointPose, ...]
+
+    @property
+    def joints(self) -> frozenset[str]:
+        """The joints that it turns."""
+        return frozenset(joint for pose in self.poses for joint in pose.joints)
+
+    def solve(self, body: Body, rest: Mapping[str, Quat]) -> SolvedRotations:
+        """Return the rotations of its joints; of several goals out of reach, the first is reported."""
+        solved = [pose.solve(body, rest) for pose in self.poses]
+        rotations = {joint: turn for each in solved for joint, turn in each.rotations.items()}
+        return SolvedRotations(rotations, next((each.missed for each in solved if each.missed is not None), None))
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """Key poses as motions: a part of the body goes from one state to the next."""
 
 from bisect import bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -17,9 +17,15 @@ from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGoals, NotReachable, WrongElement
-from reactive_realizer.engines.animation.key_poses.solved_pose import Missed, SolvedPose
+from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, Missed
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
-from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, Predictability, ordered
+from reactive_realizer.engines.animation.motion_unit import (
+    Moment,
+    MotionPose,
+    MotionUnit,
+    Predictability,
+    ordered,
+)
 from reactive_realizer.engines.animation.motions.pose_goals import PoseGoals
 from reactive_realizer.engines.animation.procedural.effector_track import carried_as_shown
 from reactive_realizer.engines.animation.shortest import Profile
@@ -45,19 +51,21 @@ class Key(NamedTuple):
         pose: the state.
         location: of its element in the document.
         power: of the way (`Expressivity`).
+        way: the state after a share of the way to it; None for the shortest arc of each joint.
     """
 
     begins: float
     reached: float
     left: float
     profile: Profile
-    pose: SolvedPose
+    pose: JointPose
     location: Location
-    power: float
+    power: float = 0.0
+    way: Callable[[float], JointPose] | None = None
 
 
 class KeyPosesMotionUnit(MotionUnit):
-    """Goes from the body at its start through key poses, every joint along its shortest arc, and holds each of them.
+    """Goes from the body at its start through key poses and holds each of them.
 
     Goals are met in each frame from where the trunk is then. Motions of the head and of the trunk lie below gestures,
     as gazes do. It owns nothing: whatever moves the same joints later lies above it.
@@ -65,32 +73,39 @@ class KeyPosesMotionUnit(MotionUnit):
 
     predictability = Predictability.ONCE_STARTED
 
-    def __init__(self, behavior: KeyPoses, keys: Sequence[Key], rest: Body, notes: tuple[Fault, ...] = ()) -> None:
+    def __init__(
+        self,
+        name: str,
+        keys: Sequence[Key],
+        rest: Body,
+        points: Mapping[str, float],
+        fades: tuple[float, float],
+        *,
+        whole_body: bool = False,
+    ) -> None:
         """Plan a motion.
 
         Args:
-            behavior: with the times of its poses.
+            name: for messages.
             keys: one or more, in order.
             rest: the body without it; joints without a goal in one pose are there as in this body.
-            notes: faults of goals that are left out.
+            points: sync id -> time, s; besides start, relax and end.
+            fades: times in which it takes over the joints and releases them, s.
+            whole_body: whether it is a posture rather than a gesture.
         """
         self.parameters = {}
-        self.notes = notes
         self.joints = frozenset(joint for key in keys for joint in key.pose.joints)
-        self.kind = _kind(behavior.group, self.joints)
+        self.kind = _kind(self.joints, whole_body=whole_body)
         self._keys = keys
         self._begins = [key.begins for key in keys]
-        self._fade_in, self._fade_out = behavior.fade_in, behavior.fade_out
+        self._fade_in, self._fade_out = fades
         self._rest = rest
         self._first: Mapping[str, Quat] = {joint: rest.rotation(joint) for joint in self.joints}
         self._relaxes = max(keys[-1].left, _SHORTEST)
         self.preferred_duration = self._relaxes + self._fade_out
-        self.key_positions = self._points(behavior.poses)
-        self._name = behavior.id
-
-    def _points(self, poses: Iterable[KeyPose]) -> Mapping[str, float]:
-        named = {pose.id: min(pose.time, self._relaxes) / self.preferred_duration for pose in poses if pose.id}
-        return ordered({**named, "relax": self._relaxes / self.preferred_duration})
+        named = {sync: min(time, self._relaxes) / self.preferred_duration for sync, time in points.items()}
+        self.key_positions = ordered({**named, "relax": self._relaxes / self.preferred_duration})
+        self._name = name
 
     def start(self, body: Body) -> None:
         """Start from the current body."""
@@ -102,11 +117,15 @@ class KeyPosesMotionUnit(MotionUnit):
         body = carried_as_shown(moment.body, moment.body, moment.shown) if moment.shown else moment.body
         number = max(0, bisect_right(self._begins, time) - 1)
         key = self._keys[number]
-        there: Mapping[str, Quat] = self._rotations(number, body, moment)
-        if time < key.reached:
-            done = key.profile(share(time, key.begins, key.reached))
-            here = self._first if number == 0 else self._rotations(number - 1, body, moment)
-            there = self._on_way(key, here, there, done, moment.body, share(time, key.begins, key.reached))
+        passed = share(time, key.begins, key.reached)
+        done = key.profile(passed)
+        if key.way is not None and passed < 1.0:
+            return MotionPose(self._rotations(key, key.way(done), body, moment), self._weight(time))
+        there: Mapping[str, Quat] = self._rotations(key, key.pose, body, moment)
+        if passed < 1.0:
+            before = self._keys[number - 1]
+            here = self._first if number == 0 else self._rotations(before, before.pose, body, moment)
+            there = self._on_way(key, here, there, done, moment.body, passed)
         return MotionPose(there, self._weight(time))
 
     def _on_way(
@@ -121,12 +140,12 @@ class KeyPosesMotionUnit(MotionUnit):
         way = Way(here, there, done, expressivity.curvature, expressivity.arriving(time))
         return on_way([CarriedArm.of(body.skeleton, side) for side in sides], turned, way, body)
 
-    def _rotations(self, number: int, body: Body, moment: Moment) -> dict[str, Quat]:
-        """Return the rotations of all joints in a key pose."""
+    def _rotations(self, key: Key, pose: JointPose, body: Body, moment: Moment) -> dict[str, Quat]:
+        """Return the rotations of all joints in a pose on the way to a key pose."""
         rest = {joint: self._rest.rotation(joint) for joint in self.joints}
-        solved = self._keys[number].pose.solve(body, rest)
+        solved = pose.solve(body, rest)
         if solved.missed is not None and solved.missed.share > _STRETCHED and moment.shown is not None:
-            self.fault = self.fault or self._unreachable(self._keys[number], solved.missed)
+            self.fault = self.fault or self._unreachable(key, solved.missed)
         return {**rest, **solved.rotations}
 
     def _unreachable(self, key: Key, missed: Missed) -> Fault:
@@ -140,8 +159,8 @@ class KeyPosesMotionUnit(MotionUnit):
         return come * (1.0 - gone)
 
 
-def _kind(group: BodyGroup, joints: frozenset[str]) -> LayerKind:
-    if group is BodyGroup.WHOLEBODY:
+def _kind(joints: frozenset[str], *, whole_body: bool) -> LayerKind:
+    if whole_body:
         return LayerKind.FULL_BODY
     return LayerKind.GAZE if joints <= _LOWER else LayerKind.GESTURE
 
@@ -181,4 +200,9 @@ class KeyPosesMaker:
             left = pose.time + pose.hold
         if not keys:
             raise RealizerError(goals.notes[0] if len(goals.notes) == 1 else NoGoals(reasons=goals.reasons))
-        return KeyPosesMotionUnit(behavior, keys, rest, goals.notes)
+        points = {pose.id: pose.time for pose in behavior.poses if pose.id}
+        fades = behavior.fade_in, behavior.fade_out
+        whole = behavior.group is BodyGroup.WHOLEBODY
+        motion = KeyPosesMotionUnit(behavior.id, keys, rest, points, fades, whole_body=whole)
+        motion.notes = goals.notes
+        return motion

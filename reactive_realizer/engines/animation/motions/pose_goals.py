@@ -40,7 +40,6 @@ class PoseGoals:
         self._context = context
         self._rest = rest
         self._skeleton = context.humanoid.avatar.skeleton
-        self._joints = frozenset(group_joints(group, self._skeleton))
         self._side = _ARMS.get(group)
         self._stored: dict[str, Mapping[str, Quat]] = {}
         self._notes: dict[str, Fault] = {}
@@ -90,7 +89,7 @@ class PoseGoals:
         match goal:
             case PoseGoal():
                 if goal.pose not in self._stored:
-                    self._stored[goal.pose] = self._read(goal.pose)
+                    self._stored[goal.pose] = stored_pose(goal.pose, self._group, self._context)
             case LookAtGoal():
                 if self._group not in WEIGHTS:
                     raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(WEIGHTS)))
@@ -164,21 +163,24 @@ class PoseGoals:
                 directions.append(Direction(HEAD_AXES[goal.axis], unit(goal.direction)))
         return HeadPose(self._group, place, tuple(directions))
 
-    def _read(self, name: str) -> Mapping[str, Quat]:
-        """Return the rotations of a stored pose for the joints of the group; those of the other side are mirrored.
 
-        Raises:
-            RealizerError: there is no such file, it is invalid, or it has none of the joints.
-        """
-        path = first_asset(self._context.asset, f"**/{name}.xml", f"**/{name}.bvh")
-        pose = _stored(path, path.stat().st_mtime_ns, self._skeleton)
-        own = {joint: turn for joint, turn in pose.items() if joint in self._joints}
-        if not own:
-            mirrored = {other_side(joint): (w, x, -y, -z) for joint, (w, x, y, z) in pose.items()}
-            own = {joint: turn for joint, turn in mirrored.items() if joint in self._joints}
-        if not own:
-            raise RealizerError(NotOfGroup(goal=f"pose {name}", group=self._group, known=tuple(pose)))
-        return own
+def stored_pose(name: str, group: BodyGroup, context: MakerContext) -> Mapping[str, Quat]:
+    """Return the rotations of a stored pose for the joints of a group; those of the other side are mirrored.
+
+    Raises:
+        RealizerError: there is no such file, it is invalid, or it has none of the joints.
+    """
+    skeleton = context.humanoid.avatar.skeleton
+    joints = frozenset(group_joints(group, skeleton))
+    path = first_asset(context.asset, f"**/{name}.xml", f"**/{name}.bvh")
+    pose = _stored(path, path.stat().st_mtime_ns, skeleton)
+    own = {joint: turn for joint, turn in pose.items() if joint in joints}
+    if not own:
+        mirrored = {other_side(joint): (w, x, -y, -z) for joint, (w, x, y, z) in pose.items()}
+        own = {joint: turn for joint, turn in mirrored.items() if joint in joints}
+    if not own:
+        raise RealizerError(NotOfGroup(goal=f"pose {name}", group=group, known=tuple(pose)))
+    return own
 
 
 @lru_cache(256)
