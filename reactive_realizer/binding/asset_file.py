@@ -78,12 +78,13 @@ def parse_boolean(name: str, text: str) -> bool:
 XmlElement = etree._Element
 
 
-def read_xml(path: Path, root: str) -> XmlElement:
+def read_xml(path: Path, root: str, namespace: str = "") -> XmlElement:
     """Return the root element of an XML file.
 
     Args:
         path: of the file.
         root: required name of the root element.
+        namespace: that it may have.
 
     Raises:
         RealizerError: "bad-asset": the file is not well-formed, has a DOCTYPE, or has another root; "asset-too-big".
@@ -99,7 +100,7 @@ def read_xml(path: Path, root: str) -> XmlElement:
         raise RealizerError(BadAsset(file=path.name, row=line, element=root, reason=problem.msg)) from problem
     if document.getroottree().docinfo.internalDTD is not None:
         raise asset_error(document, "a DOCTYPE is refused")
-    if document.tag != root:
+    if document.tag not in (root, f"{{{namespace}}}{root}"):
         raise asset_error(document, f"the file should begin with <{root}>")
     return document
 

@@ -5,6 +5,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from lxml import etree
+
 from reactive_realizer.binding.asset_file import XmlElement, asset_error, attribute, read_xml
 from reactive_realizer.binding.spec_reader import pairs, part, read_spec
 from reactive_realizer.binding.unit_spec import UnitSpec, unit_id
@@ -16,6 +18,12 @@ _log = logging.getLogger(__name__)
 
 _CONTROLLER = "PhysicalController"
 """The kind of unit whose class is a parameter."""
+
+_MURML = "MURML"
+"""The kind of unit whose description may be inside."""
+
+MURML_TEXT = "murml-description"
+"""Parameter with the description inside a unit, as XML."""
 
 _SPECS: Mapping[str, tuple[str, str | None]] = {
     "MotionUnitSpec": ("MotionUnit", None),
@@ -83,6 +91,8 @@ def _spec(element: XmlElement, name: str, behavior: str | None) -> UnitSpec:
     named = spec.file is not None or "class" in unit.attrib or {"file", "name"} & set(spec.parameter_map.values())
     if not named and not len(unit):
         raise asset_error(unit, "neither a file nor a class")
+    if kind == _MURML and len(unit):
+        return replace(spec, defaults={MURML_TEXT: etree.tostring(unit[0], encoding="unicode"), **spec.defaults})
     if kind == _CONTROLLER and "class" in unit.attrib:
         return replace(spec, defaults={"class": attribute(unit, "class"), **spec.defaults})
     return spec

@@ -33,10 +33,13 @@ def read_murml(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str,
         raise RealizerError(source.located(tree, missing))
     reader = MurmlReader(source.location, _SCOPES.get(_mode_around(tree), Scope.RIGHT))
     description = reader.read(inside[0])
-    if name_of(tree) == _FACE and description.keyframing is None:
-        raise RealizerError(source.located(inside[0], NothingToPlay(element=_FACE)))
     notes += reader.notes
-    return {"description": description, "content": source.xml(inside[0])}
+    content = source.xml(inside[0])
+    if name_of(tree) != _FACE:
+        return {"description": description, "content": content}
+    if description.keyframing is None:
+        raise RealizerError(source.located(inside[0], NothingToPlay(element=_FACE)))
+    return {"keyframing": description.keyframing, "content": content}
 
 
 def wrapped(child: Tree, core: Tree, description: Tree, source: BlockSource) -> Tree:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
-from reactive_realizer.bml.murml.description import MurmlDescription
+from reactive_realizer.bml.murml.description import Keyframing, MurmlDescription
 from reactive_realizer.bml.names import MURML
 
 DESCRIPTION = "murml-description"
@@ -34,7 +34,7 @@ class MurmlFace(Behavior):
     """Key frames of the face.
 
     Attributes:
-        description: what it means; it has key frames.
+        keyframing: its key frames.
         content: its `murml-description`, as XML.
     """
 
@@ -42,5 +42,5 @@ class MurmlFace(Behavior):
     CHILDREN: ClassVar = (DESCRIPTION,)
     SYNC_POINTS: ClassVar[SyncPoints] = ("start", "attackPeak", "relax", "end")
 
-    description: MurmlDescription
+    keyframing: Keyframing
     content: str = field(compare=False)

@@ -12,9 +12,11 @@ from reactive_realizer.binding.face_binding import FaceBinding
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Face, FaceFacs, FaceLexeme, FaceShift
 from reactive_realizer.bml.extensions import FACES, FaceKeyframe, FaceMorph, FacePlutchik
+from reactive_realizer.bml.murml.behaviors import MurmlFace
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
+from reactive_realizer.engine.effects import Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.face.face_animation import FaceAnimation, animation_path, read_face_animation
@@ -29,7 +31,9 @@ from reactive_realizer.engines.face.face_unit import (
     FaceUnit,
 )
 from reactive_realizer.engines.face.living_face import LivingFace
+from reactive_realizer.engines.face.murml_face import murml_face
 from reactive_realizer.engines.face.weights import Weights, added, limited, scaled
+from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -48,7 +52,7 @@ _MOUTH_FADE = 0.12
 class FaceEngine(DefaultEngine):
     """Plays expressions and mixes them with the resting face and the lip sync of the character's speech."""
 
-    behaviors = FACES | {FaceLexeme, FaceFacs, Face, FaceShift}
+    behaviors = FACES | {FaceLexeme, FaceFacs, Face, FaceShift, MurmlFace}
     parameters: Mapping[type[Behavior], Mapping[str, Range]] = MappingProxyType(
         {
             **{kind: MappingProxyType({"amount": _STRENGTH}) for kind in (FaceLexeme, FaceFacs, Face)},
@@ -68,6 +72,8 @@ class FaceEngine(DefaultEngine):
         self._fading_faces = Fades(_FADE)
         self._fading_mouths = Fades(_MOUTH_FADE)
         self._mouth: Mapping[str, float] = {}
+        # Notes of new units, not reported yet.
+        self._notes: list[Warn] = []
 
     def lexicon(self) -> Iterator[LexiconEntry]:
         """The face lexemes."""
@@ -82,6 +88,8 @@ class FaceEngine(DefaultEngine):
         if isinstance(behavior, FaceKeyframe):
             path = animation_path(behavior, self._asset)
             return tuple(self._animation(behavior).points) if path is None else None
+        if isinstance(behavior, MurmlFace):
+            return tuple(self._key_frames(behavior)[0].points)
         timing = self._shape(behavior).timing
         return SHIFT_TIMING.points if isinstance(behavior, FaceShift) else timing.points
 
@@ -105,6 +113,9 @@ class FaceEngine(DefaultEngine):
         if isinstance(behavior, FaceKeyframe):
             animation = prepared if isinstance(prepared, FaceAnimation) else self._animation(behavior)
             return FaceAnimationUnit(block, behavior, animation, self._release)
+        if isinstance(behavior, MurmlFace):
+            animation, notes = self._key_frames(behavior)
+            return FaceAnimationUnit(block, behavior, animation, self._release, notes)
         shape = self._shape(behavior)
         if isinstance(behavior, FaceShift):
             return FaceShiftUnit(block, behavior, shape.weights, self._rest)
@@ -114,6 +125,17 @@ class FaceEngine(DefaultEngine):
             parameter = Parameter(self._graph, str(unit.key(name)), getattr(behavior, name), values)
             unit.vary(name, parameter, partial(self._weights_at, behavior, name))
         return unit
+
+    def add(self, unit: PlanUnit) -> None:
+        """Add a planned unit."""
+        if isinstance(unit, FaceAnimationUnit):
+            self._notes += [Warn(unit, note) for note in unit.notes]
+        super().add(unit)
+
+    def warnings(self) -> tuple[Warn, ...]:
+        """The warnings about new units."""
+        notes, self._notes = self._notes, []
+        return tuple(notes)
 
     def reset(self, time: GlobalTime) -> None:
         """Return to the neutral resting face."""
@@ -140,6 +162,11 @@ class FaceEngine(DefaultEngine):
     def _animation(self, behavior: FaceKeyframe) -> FaceAnimation:
         """That inside of a behavior."""
         return read_face_animation(behavior, None, self._library.shapes)
+
+    def _key_frames(self, behavior: MurmlFace) -> tuple[FaceAnimation, tuple[Fault, ...]]:
+        """The animation of MURML's key frames, and the faults of what is left out of it."""
+        notes: list[Fault] = []
+        return murml_face(behavior.keyframing, self._library.shapes, notes), tuple(notes)
 
     def _weights_at(self, behavior: Behavior, name: str, value: float) -> Weights:
         """Those of an expression with another value of an attribute."""

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import reduce
 from itertools import accumulate, pairwise
 
+from reactive_realizer.binding.gesture_binding import MURML_TEXT
 from reactive_realizer.bml.murml.behaviors import MurmlGesture
 from reactive_realizer.bml.murml.description import (
     GesturePlace,
@@ -20,18 +21,18 @@ from reactive_realizer.bml.murml.description import (
     Track,
     signed,
 )
-from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup
+from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, Mode
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, multiply
 from reactive_realizer.embodiment.spine import folded_spine
 from reactive_realizer.embodiment.vector import FORWARD, UP, ZERO, Vec3, add, scale, unit
 from reactive_realizer.engines.animation.easing import minimum_jerk
-from reactive_realizer.engines.animation.faults import NoGoals, NoJoints, WrongElement
+from reactive_realizer.engines.animation.faults import NoGoals, NoJoints
 from reactive_realizer.engines.animation.key_poses.arm_pose import hand_axes
 from reactive_realizer.engines.animation.key_poses.gesture_space import arm_length, gesture_place
 from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, SeveralPoses, SolvedPose
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
-from reactive_realizer.engines.animation.motion_unit import PhaseDuration, arms_used, with_gesture_points
+from reactive_realizer.engines.animation.motion_unit import FILE_PARAMETERS, PhaseDuration, arms_used, with_gesture_points
 from reactive_realizer.engines.animation.motions.hand_tracks import (
     Course,
     HandTracks,
@@ -40,6 +41,7 @@ from reactive_realizer.engines.animation.motions.hand_tracks import (
     shape_course,
 )
 from reactive_realizer.engines.animation.motions.key_poses import Key, KeyPosesMotionUnit
+from reactive_realizer.engines.animation.motions.murml_files import read_murml_file, read_murml_text
 from reactive_realizer.engines.animation.motions.pose_goals import stored_pose
 from reactive_realizer.engines.animation.motions.reaching import reach
 from reactive_realizer.errors import Fault, RealizerError
@@ -55,6 +57,8 @@ _LEFTWARD: Vec3 = (1.0, 0.0, 0.0)
 
 class MurmlMotionUnit(KeyPosesMotionUnit):
     """Prepares from the current pose, plays key poses, and retracts to the rest pose."""
+
+    fixed = FILE_PARAMETERS | {MURML_TEXT}
 
     def __init__(self, name: str, keys: Sequence[Key], rest: Body, points: Mapping[str, float], fade_out: float) -> None:
         """Plan a gesture.
@@ -92,9 +96,17 @@ class MurmlMaker:
             RealizerError: nothing of it can be played.
         """
         behavior = request.behavior
-        if not isinstance(behavior, MurmlGesture):
-            raise RealizerError(WrongElement(unit="MURML", element=behavior.name))
-        return self._motion(behavior.id, behavior.description)
+        if isinstance(behavior, MurmlGesture):
+            return self._motion(behavior.id, behavior.description)
+        text = request.parameters.get(MURML_TEXT)
+        scope = Scope.LEFT if getattr(behavior, "mode", None) is Mode.LEFT_HAND else Scope.RIGHT
+        if text is not None and request.file is None:
+            found = read_murml_text(text, "the description in the gesture binding", scope)
+        else:
+            found = read_murml_file(self._context.file_of(request, "xml"), scope)
+        motion = self._motion(behavior.id, found.description)
+        motion.notes = (*found.notes, *motion.notes)
+        return motion
 
     def _motion(self, name: str, description: MurmlDescription) -> MurmlMotionUnit:
         rest = self._context.rest.body
