@@ -7,7 +7,7 @@ from itertools import product
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
 from reactive_realizer.binding.mouth_shapes import SILENCE, VISEMES
 from reactive_realizer.binding.viseme_binding import VisemeBinding
-from reactive_realizer.bml.names import BML_EXT, OWN
+from reactive_realizer.bml.names import BML_EXT, MURML, OWN
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.face.expressions import Expressions
@@ -167,6 +167,35 @@ _CLIP = """
 </SkeletonInterpolator>
 """.strip()
 
+_MURML_POSE = """
+<murml-description>
+  <parallel>
+    <static slot="HandLocation" scope="right_arm" value="LocShoulder LocCenterRight LocNorm"/>
+    <static slot="ExtFingerOrientation" scope="right_arm" value="DirU"/>
+    <static slot="PalmOrientation" scope="right_arm" value="DirA"/>
+    <static slot="HandShape" scope="right_arm" value="BSflat"/>
+  </parallel>
+</murml-description>
+""".strip()
+
+_MURML_HANDS = """
+<murml-description>
+  <symmetrical dominant="right_arm" symmetry="SymMS">
+    <parallel>
+      <dynamic slot="HandLocation">
+        <dynamicElement type="linear">
+          <value type="start" name="LocLowerChest LocCenterRight LocNorm"/>
+          <value type="end" name="LocStomach LocPeripheryRight LocFar"/>
+        </dynamicElement>
+      </dynamic>
+      <static slot="ExtFingerOrientation" value="DirA"/>
+      <static slot="PalmOrientation" value="PalmU"/>
+      <static slot="HandShape" value="BSflat"/>
+    </parallel>
+  </symmetrical>
+</murml-description>
+""".strip()
+
 _BALANCE = """
 <bmlt:controller id="b" class="BalanceController" start="0"/>
 <bmlt:controller id="l" class="CompoundController" name="leftarmhang" start="0"/>
@@ -206,6 +235,10 @@ _UNITS = (
     ),
     Entry("procanimationgesture", '<bmlt:procanimationgesture id="a" name="offer_both" stroke="1.5"/>'),
     Entry("keyframe", f'<bmlt:keyframe id="k">{_CLIP}</bmlt:keyframe>'),
+    *(
+        Entry(f"murmlgesture-{name}", f'<murmlgesture xmlns="{MURML}" id="g">{inside}</murmlgesture>')
+        for name, inside in (("static", _MURML_POSE), ("symmetrical", _MURML_HANDS))
+    ),
     Entry(
         "noise",
         '<bmlt:noise id="n" type="perlin" joint="vl5" end="4"><bmlt:parameter name="basefreqx" value="0.5"/>'

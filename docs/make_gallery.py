@@ -50,7 +50,7 @@ SECTIONS = {
     "Visemes": ("visemes",),
     "Head": ("head", "headdirectionshift"),
     "Gaze": ("gaze", "gazeshift"),
-    "Gestures": ("gesture", "pointing"),
+    "Gestures": ("gesture", "pointing", "murmlgesture"),
     "Expressivity": ("expressivity",),
     "Postures": ("pose", "stance", "postureshift"),
     "Procedural animations": ("procanimation", "procanimationgesture"),

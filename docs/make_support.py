@@ -16,7 +16,10 @@ from reactive_realizer.bml.embr.syntax import CHILDREN as EMBR_CHILDREN
 from reactive_realizer.bml.embr.syntax import PARAMETERS as EMBR_PARAMETERS
 from reactive_realizer.bml.extensions import BehaviorParameter, Trajectory
 from reactive_realizer.bml.key_poses import GOALS, KeyPose
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN
+from reactive_realizer.bml.murml.description import Slot
+from reactive_realizer.bml.murml.reader import SYMMETRIES
+from reactive_realizer.bml.murml.symbols import SYMBOLS
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, MURML, OWN
 from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.block_planner import NotSupported
@@ -31,6 +34,9 @@ _CHILDREN = {
     "postureShift": '<stance type="STANDING"/>',
     "parametervaluechange": '<trajectory type="linear" targetValue="1"/>',
     "keyPoses": '<keyPose time="1"><lookAt target="0 0 1"/></keyPose>',
+    "murmlgesture": f'<murml-description xmlns="{MURML}"><static slot="HandShape" value="ASLa"/></murml-description>',
+    "murmlface": f'<murml-description xmlns="{MURML}"><dynamic><keyframing><phase><frame ftime="1">'
+    "<posture>Humanoid (jawOpen 1 50)</posture></frame></phase></keyframing></dynamic></murml-description>",
 }
 """Minimal content of elements that cannot be empty."""
 
@@ -46,7 +52,7 @@ _INSIDE: tuple[tuple[str, type, bool], ...] = (
 )
 """Elements inside of behaviors: title, class that declares the attributes, and whether it is realized."""
 
-_PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:", OWN: "rr:"}
+_PREFIXES = {BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:", OWN: "rr:", MURML: "murml:"}
 
 _NOTES = {
     "bml composition": "in any case, with `-`, `_` or no separator; the last two equal `appendAfter` and `chunkAfter`",
@@ -157,7 +163,8 @@ _AROUND = """\
 | `required` | yes | its contents must succeed; otherwise the block ends as FAILED and stops |
 | `constraint`, `synchronize` | yes | its `<sync ref="..."/>` sync points coincide; an absolute time fixes them |
 | `constraint`, `before`, `after` | yes | also while the block plays; `smartbody` drops them with a warning |
-| `description` | yes | by priority; of a `speech` also [audio](audio.md), [SSML](voices.md#ssml) |
+| `description` | yes | by priority; of a `speech` also [audio](audio.md), [SSML](voices.md#ssml); of gestures and \
+faces also [MURML](murml.md) |
 
 ## Other namespaces
 
@@ -179,7 +186,8 @@ otherwise the first one |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
 `keyPoses` and `idleChange` are in the namespace `urn:reactive-realizer:1`
-([key poses in BML](embrscript.md#key-poses-in-bml)).
+([key poses in BML](embrscript.md#key-poses-in-bml)). `murmlgesture` and `murmlface` are in the namespace
+`http://www.techfak.uni-bielefeld.de/ags/soa/murml` ([MURML](murml.md)).
 
 `procanimation`, `procanimationgesture`, `keyframe`, `noise`, `transition` and `audiofile` are in the namespace
 `http://hmi.ewi.utwente.nl/bmlt`. The motion of such an element, or of a `gesture` or `head`, can have additional sync
@@ -269,6 +277,37 @@ def _embr() -> str:
     return _EMBR + _table(("element", "parameters", "read as"), rows)
 
 
+_MURML = """
+## MURML
+
+The symbols of [MURML](murml.md). Directions of fingers and palms have any letters of `L`, `R`, `U`, `D`, `A` (away
+from the body) and `T` (toward it) after `Dir` or `Palm`, and each letter counts: `DirALAA`
+is ahead and a little to the left.
+
+"""
+
+
+def _murml() -> str:
+    symbols = SYMBOLS
+    rows = (
+        ("height of a `HandLocation`", "0 pelvis, 1 shoulders, 2 eyes", symbols.heights),
+        ("direction of a `HandLocation`", "degrees to the left", symbols.directions),
+        ("distance of a `HandLocation`", "lengths of the arm, ahead", symbols.distances),
+        ("`distance` of a movement", "lengths of the arm", symbols.ways),
+        ("`extent` of a curve", "lengths of its chord", symbols.extents),
+        ("`HandShape`", "stored pose", symbols.hand_shapes),
+    )
+    listed = (
+        (kind, unit, ", ".join(f"`{name}` {value}" for name, value in table.items())) for kind, unit, table in rows
+    )
+    others = (("slot", "", ", ".join(map(_code, Slot))), ("`symmetry`", "", ", ".join(map(_code, SYMMETRIES))))
+    return _MURML + _table(("symbols of", "meaning", "symbols"), [*listed, *others])
+
+
+def _code(word: str) -> str:
+    return f"`{word}`"
+
+
 def page() -> str:
     """The page as Markdown."""
     return asyncio.run(_page())
@@ -291,6 +330,7 @@ async def _page() -> str:
         _AROUND,
         _DRAFTS,
         _embr(),
+        _murml(),
     ]
     return "".join([_HEAD, *parts])
 
@@ -323,7 +363,8 @@ def _example(element: Element) -> Behavior:
     name = f"{_PREFIXES.get(element.namespace, '')}{element.name}"
     needed = " ".join(f'{each.name}="{_sample(each)}"' for each in element.attributes if each.required)
     written = f"<{name} {needed}>{_CHILDREN.get(element.name, '')}</{name}>"
-    namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}" xmlns:rr="{OWN}"'
+    own = f'xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}" xmlns:rr="{OWN}" xmlns:murml="{MURML}"'
+    namespaces = f'xmlns="{BML}" xmlns:ext="{BML_EXT}" {own}'
     (parsed,) = parse(f'<bml {namespaces} id="b">{written}</bml>', Limits())
     if parsed.block is None or not parsed.block.behaviors:
         raise ValueError(f"{written} is not a valid {element.name}: {parsed.problems}")

@@ -36,7 +36,7 @@ def is_continuous(tree: Tree) -> bool:
 
 
 def is_part(child: Tree, tree: Tree) -> bool:
-    """Whether a child is in the language of its parent: BML 1.0, or its parent's: continuous interaction, MURML, our own.
+    """Whether a child is in the language of its parent: BML 1.0; or continuous interaction, MURML, our own as that is.
 
     A parameter is in BMLT, and any behavior may contain it.
     """

@@ -6,7 +6,7 @@ import pytest
 
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, MURML, OWN
 from reactive_realizer.limits import Limits
 
 Read = Callable[[str], Parsed]
@@ -18,7 +18,8 @@ def read() -> Read:
 
     def read_inside(inside: str) -> Parsed:
         (parsed,) = parse(
-            f'<bml xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}" xmlns:rr="{OWN}" id="b">'
+            f'<bml xmlns="{BML}" xmlns:ext="{BML_EXT}" xmlns:bmla="{BMLA}" xmlns:bmlt="{BMLT}" xmlns:rr="{OWN}" '
+            f'xmlns:murml="{MURML}" id="b">'
             f"{inside}</bml>",
             Limits(),
         )

@@ -30,6 +30,8 @@ DOCUMENTS = [
     '</SkeletonInterpolator></bmlt:keyframe><wink xmlns="urn:example:wink" id="x" eye="left"><lid/></wink></bml>',
     f'<bml {SPACES} id="b"><rr:keyPoses id="k" group="HEAD" fadeIn="0.1234567" up="1"><rr:keyPose id="up" time="0.7">'
     '<rr:lookAt target="1 2 -3.5"/><rr:pose name="x" influence="0.5"/></rr:keyPose></rr:keyPoses></bml>',
+    f'<bml {SPACES} id="b"><murmlgesture xmlns="http://www.techfak.uni-bielefeld.de/ags/soa/murml" id="g" ready="1">'
+    '<murml-description><static slot="HandLocation" value="LocHead"/></murml-description></murmlgesture></bml>',
     f'<bmla:defineproc {SPACES} id="p"><head id="h" lexeme="NOD"/></bmla:defineproc>'
     f'<bmla:useproc {SPACES} procid="p" bmlid="u" characterId="alice"/>',
     '<bml><gaze target="viewer" start="1"/><head type="NOD" repeats="2"/><posture stance="sitting"/></bml>',

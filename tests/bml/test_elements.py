@@ -46,7 +46,8 @@ from reactive_realizer.bml.extensions import (
 )
 from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.key_poses import KeyPoses
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN, Location
+from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, MURML, OWN, Location
 from reactive_realizer.bml.vocabulary import (
     BodyGroup,
     Influence,
@@ -68,8 +69,12 @@ SHIFT = ("start", "end")
 PARTS = '<faceLexeme lexeme="OPEN_MOUTH" amount="1"/><ext:faceFacs au="12" side="LEFT"/>'
 STANCE = '<stance type="SITTING"/><pose part="ARMS" lexeme="ARMS_OPEN"/><pose part="LEGS" lexeme="LEGS_CROSSED"/>'
 CHANGE = '<bmla:trajectory type="linear" initialValue="-0.5" targetValue="90"/>'
-PREFIXES = {BML: "", BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:", OWN: "rr:"}
+PREFIXES = {BML: "", BML_EXT: "ext:", BMLA: "bmla:", BMLT: "bmlt:", OWN: "rr:", MURML: "murml:"}
 
+FRAMES = (
+    f'<murml-description xmlns="{MURML}"><dynamic><keyframing><phase><frame ftime="1"><posture>Humanoid (vc4 3 1 2 3)'
+    "</posture></frame></phase></keyframing></dynamic></murml-description>"
+)
 POSE = '<keyPose time="1"><lookAt target="0 0 1"/></keyPose>'
 
 WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = {
@@ -245,6 +250,8 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         {"parameter": IdleParameter.BLINK_RATE, "value": 9.0},
         SHIFT,
     ),
+    f'<murml:murmlgesture id="x">{FRAMES}</murml:murmlgesture>': (MurmlGesture, {}, STROKE),
+    f'<murml:murmlface id="x">{FRAMES}</murml:murmlface>': (MurmlFace, {}, FACE),
 }
 
 
@@ -292,6 +299,7 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
                 "stance": STANCE,
                 "trajectory": CHANGE,
                 "keyPose": POSE,
+                "murml-description": FRAMES,
             }
             inside = "".join(needed.get(child, "") for child in element.children)
             prefix = PREFIXES[element.namespace]

@@ -21,10 +21,13 @@ _NUMBER: Final = Float(-1e6, 1e6)
 _PART: Final = re.compile(r"\(([^()]*)\)|([^\s()]+)")
 """A part in parentheses, or another word; the first word of a posture names the kind of figure."""
 
+T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
 
 
 class _Type(Protocol[T_co]):
+    """A type of attribute (`attribute_types`)."""
+
     def read(self, text: str, limits: Limits) -> T_co: ...
 
 
@@ -44,7 +47,9 @@ def read_keyframing(tree: Tree, locate: Callable[[Tree], Location], notes: list[
     if not frames:
         raise RealizerError(notes[0] if len(notes) == 1 else reader.at(tree, NothingToPlay(element=name_of(tree))))
     if tree.get("applymode", "exclusive").lower() == "superpose":
-        superposed = MurmlNotRealized(feature="applymode='superpose'", reason="frames replace other motion of their joints")
+        superposed = MurmlNotRealized(
+            feature="applymode='superpose'", reason="frames replace other motion of their joints"
+        )
         notes.append(reader.at(tree, superposed))
     return Keyframing(
         tuple(frames),
@@ -80,25 +85,27 @@ class _FrameReader:
         if before and time <= before[-1].time:
             raise RealizerError(self.at(tree, FrameTooEarly(time=time, earliest=before[-1].time)))
         values: dict[str, tuple[float, ...]] = {}
+        faults: list[Fault] = []
         for posture in self._children(tree, "posture"):
-            values |= self._posture(posture)
+            values |= self._posture(posture, faults)
         if not values:
-            raise RealizerError(self.at(tree, NothingToPlay(element=name_of(tree))))
+            raise RealizerError(faults[0] if faults else self.at(tree, NothingToPlay(element=name_of(tree))))
+        self._notes += faults
         return Frame(time, values, self._locate(tree))
 
-    def _posture(self, tree: Tree) -> dict[str, tuple[float, ...]]:
+    def _posture(self, tree: Tree, faults: list[Fault]) -> dict[str, tuple[float, ...]]:
         values: dict[str, tuple[float, ...]] = {}
         for number, found in enumerate(_PART.finditer("".join(map(str, tree.itertext())))):
             part = _values(found[1]) if found[1] is not None else None
             if part is not None:
                 values[part[0]] = part[1]
             elif number > 0 or found[1] is not None:
-                self._notes.append(self.at(tree, BadPosture(text=quoted(found[0]))))
+                faults.append(self.at(tree, BadPosture(text=quoted(found[0]))))
         return values
 
     # --- attributes and faults
 
-    def value(self, tree: Tree, name: str, kind: _Type[T_co], default: T_co) -> T_co:
+    def value(self, tree: Tree, name: str, kind: _Type[T], default: T) -> T:
         """The value of an attribute; its default, with a note, if it cannot be read."""
         text = tree.get(name)
         try:
@@ -107,7 +114,7 @@ class _FrameReader:
             self._notes.append(refused.fault)
             return default
 
-    def _read(self, tree: Tree, name: str, text: str, kind: _Type[T_co]) -> T_co:
+    def _read(self, tree: Tree, name: str, text: str, kind: _Type[T]) -> T:
         try:
             return kind.read(text, _LIMITS)
         except RealizerError as refused:

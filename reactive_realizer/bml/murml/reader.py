@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Final
+from typing import Final, TypeVar
 
 from reactive_realizer.bml.faults import UnknownElement
 from reactive_realizer.bml.murml.description import (
@@ -30,6 +30,8 @@ from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError, quoted
 
+T = TypeVar("T")
+
 _DYNAMIC, _STATIC, _KEYFRAMING, _ELEMENT = "dynamic", "static", "keyframing", "dynamicElement"
 _HOLDERS: Final = ("parallel", "sequence", "symmetrical")
 _MOVEMENTS: Final = (*_HOLDERS, _DYNAMIC, _STATIC)
@@ -42,19 +44,20 @@ _USUAL_CURVE, _USUAL_EXTENT = "RightS", 0.2
 _PLACES: Final = ("start", "via", "end")
 """The types of values that are reached one after another; others describe a movement."""
 
-_X, _Y, _Z = (-1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, -1.0)
-_PLANES: Final = {"S": _X, "T": _Y, "F": _Z}
-"""The planes of a symmetry: sagittal, transversal, frontal. The other hand is always on the other side."""
-
 
 def _mirrors() -> Iterator[tuple[str, Mirror]]:
+    """Yield the symmetries by their names, whose letters are the sagittal, the transversal and the frontal plane.
+
+    Unless both hands do the same, they are on different sides, whatever the planes are (AsapRealizer).
+    """
     yield "Sym", Mirror(STRAIGHT, STRAIGHT)
     for planes in ("S", "T", "F", "ST", "SF", "TF", "STF"):
         x, y, z = (-1.0 if name in planes else 1.0 for name in "STF")
         yield f"SymM{planes}", Mirror((-1.0, y, z), (x, y, z))
 
 
-_SYMMETRIES: Final = MappingProxyType(dict(_mirrors()))
+SYMMETRIES: Final = MappingProxyType(dict(_mirrors()))
+"""The symmetries of two hands, by the planes in which they are mirrored."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +120,9 @@ class MurmlReader:
         tracks = _merged(self._parallel(tree).tracks)
         if tracks:
             return MurmlDescription(tracks=tracks)
-        raise RealizerError(self.notes[0] if len(self.notes) == 1 else self._at(tree, NothingToPlay(element=name_of(tree))))
+        raise RealizerError(
+            self.notes[0] if len(self.notes) == 1 else self._at(tree, NothingToPlay(element=name_of(tree)))
+        )
 
     # --- structure
 
@@ -169,11 +174,11 @@ class MurmlReader:
     def _symmetrical(self, tree: Tree) -> _Part:
         dominant = self._scope_of(tree, self._scope, "dominant")
         symmetry = tree.get("symmetry", "SymMS")
-        if symmetry not in _SYMMETRIES:
-            self._note(tree, UnknownSymbol(slot="symmetry", symbol=quoted(symmetry), known=tuple(_SYMMETRIES)))
+        if symmetry not in SYMMETRIES:
+            self._note(tree, UnknownSymbol(slot="symmetry", symbol=quoted(symmetry), known=tuple(SYMMETRIES)))
             symmetry = "SymMS"
         part = self._parallel(tree, dominant)
-        other = (_mirrored(track, _SYMMETRIES[symmetry]) for track in part.tracks)
+        other = (_mirrored(track, SYMMETRIES[symmetry]) for track in part.tracks)
         return _Part((*part.tracks, *other), part.length)
 
     def _static(self, tree: Tree, scope: Scope | None) -> _Part:
@@ -219,14 +224,15 @@ class MurmlReader:
         values = {child.get("type", ""): child for child in self._children(tree, ("value",))}
         stops = [child for child in self._children(tree, ("value",)) if child.get("type") in _PLACES]
         marks = [self._mark(child, slot, scope) for child in stops]
-        if before and marks and stops[0].get("type") == "start":
-            if marks[0].value == before[-1].value:
-                marks.pop(0)
+        if before and marks and stops[0].get("type") == "start" and marks[0].value == before[-1].value:
+            marks.pop(0)
         way = self._way(tree, slot, values)
         if way is not None:
             marks.append(way)
         if not marks:
-            raise RealizerError(self._at(tree, MissingMurmlValue(slot=slot, values="values of the types start and end")))
+            raise RealizerError(
+                self._at(tree, MissingMurmlValue(slot=slot, values="values of the types start and end"))
+            )
         if not before and isinstance(marks[0].value, Shift):
             raise RealizerError(self._at(tree, MissingMurmlValue(slot=slot, values="a value of the type start")))
         first = before[-1].position + 1.0 if before else 0.0
@@ -330,7 +336,8 @@ class MurmlReader:
                 self.notes.append(located)
         return [child for child in tree if name_of(child) in names]
 
-    def _located(self, tree: Tree, read: Callable[[], "SlotValue"]):  # type: ignore[no-untyped-def]
+    def _located(self, tree: Tree, read: Callable[[], T]) -> T:
+        """The result of a function; its fault gets the place of an element."""
         try:
             return read()
         except RealizerError as refused:

@@ -339,7 +339,9 @@ class AnimationEngine(DefaultEngine):
         self, now: GlobalTime, playing: Sequence[AnimationUnit], layers: Iterable[Layer], standing: float
     ) -> tuple[Layer, ...]:
         """Return the layer in which trunk and pelvis follow gesturing and pointing arms."""
-        arms = [unit.shown for unit in playing if isinstance(unit.behavior, (Gesture, MurmlGesture, Pointing)) and unit.live]
+        arms = [
+            unit.shown for unit in playing if isinstance(unit.behavior, (Gesture, MurmlGesture, Pointing)) and unit.live
+        ]
         if not arms and self._trunk_following.rests:
             return ()
         directed = any(layer.kind is LayerKind.GAZE and not _HEAD.isdisjoint(layer.rotations) for layer in layers)

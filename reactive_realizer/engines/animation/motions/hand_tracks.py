@@ -78,7 +78,9 @@ def _turned(start: Vec3, goal: Vec3, done: float) -> Vec3:
 
 def shape_course(positions: Sequence[float], shapes: Sequence[Mapping[str, Quat]]) -> Course[Mapping[str, Quat]]:
     """Return the course of the joints of a hand through its shapes."""
-    return Course(positions, shapes, lambda a, b, done, _: {j: slerp(a.get(j, turn), turn, done) for j, turn in b.items()})
+    return Course(
+        positions, shapes, lambda a, b, done, _: {j: slerp(a.get(j, turn), turn, done) for j, turn in b.items()}
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,7 +32,12 @@ from reactive_realizer.engines.animation.key_poses.arm_pose import hand_axes
 from reactive_realizer.engines.animation.key_poses.gesture_space import arm_length, gesture_place
 from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, SeveralPoses, SolvedPose
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
-from reactive_realizer.engines.animation.motion_unit import FILE_PARAMETERS, PhaseDuration, arms_used, with_gesture_points
+from reactive_realizer.engines.animation.motion_unit import (
+    FILE_PARAMETERS,
+    PhaseDuration,
+    arms_used,
+    with_gesture_points,
+)
 from reactive_realizer.engines.animation.motions.hand_tracks import (
     Course,
     HandTracks,
@@ -60,7 +65,9 @@ class MurmlMotionUnit(KeyPosesMotionUnit):
 
     fixed = FILE_PARAMETERS | {MURML_TEXT}
 
-    def __init__(self, name: str, keys: Sequence[Key], rest: Body, points: Mapping[str, float], fade_out: float) -> None:
+    def __init__(
+        self, name: str, keys: Sequence[Key], rest: Body, points: Mapping[str, float], fade_out: float
+    ) -> None:
         """Plan a gesture.
 
         Args:
@@ -212,9 +219,7 @@ class _Stroke:
             shapes = list(self._shapes(scope, by_slot[Slot.HAND_SHAPE].marks))
             shape = shape_course([position for position, _ in shapes], [pose for _, pose in shapes]) if shapes else None
         axes = hand_axes(side, self._skeleton)
-        headings = [
-            (axes[_AXES[slot]], _heading_course(by_slot[slot].marks)) for slot in _AXES if slot in by_slot
-        ]
+        headings = [(axes[_AXES[slot]], _heading_course(by_slot[slot].marks)) for slot in _AXES if slot in by_slot]
         return HandTracks(side, place, headings, shape)
 
     def _places(self, marks: Sequence[Mark]) -> list[Vec3]:
