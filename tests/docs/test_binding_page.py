@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
-from reactive_realizer.binding.gesture_binding import GestureBinding
+from reactive_realizer.binding.gesture_binding import MURML_TEXT, GestureBinding
 from reactive_realizer.binding.unit_spec import CLASS_NAMES
+from reactive_realizer.bml.murml.description import Scope
 from reactive_realizer.engines.animation.motion_library import MAKERS
+from reactive_realizer.engines.animation.motions.murml_files import read_murml_text
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .conftest import fences, page
@@ -72,6 +74,15 @@ def test_the_binding_with_rest_poses_is_valid(tmp_path: Path) -> None:
     binding = GestureBinding.read(file)
     assert [(rest.stance, rest.file) for rest in binding.rest_poses] == [("STANDING", "at_ease.xml")]
     assert [(spec.behavior, spec.unit) for spec in binding.specs] == [("gazeShift", "rest-gaze")]
+
+
+def test_the_binding_with_a_description_of_murml_is_valid(tmp_path: Path) -> None:
+    (example,) = [fence for fence in fences(PAGE, "xml") if fence.note == "MURML"]
+    file = tmp_path / "gesturebinding.xml"
+    file.write_text(example.text, encoding="utf-8")
+    (spec,) = GestureBinding.read(file).specs
+    assert (spec.behavior, spec.constraints, spec.unit) == ("gesture", {"lexeme": "STOP"}, "MURML")
+    read_murml_text(spec.defaults[MURML_TEXT], "example", Scope.RIGHT)
 
 
 def test_the_page_lists_every_kind_of_motion() -> None:
