@@ -22,8 +22,8 @@ _EARS = (
 )
 """Shape, and how much of which of MakeHuman's targets it is."""
 
-_NOSE_REACH, _NOSE_MOVE = 0.016, 0.005
-"""Distance from the tip of the nose in which the skin moves along with it, and how far that moves, m."""
+_NOSE_REACH, _NOSE_MOVE = 0.026, 0.005
+"""Distance from the tip of the nose from which the skin stays, and how far the tip moves, m."""
 
 EYE_MOVE = 0.0025
 """How far an eye moves forward or backward, m."""
@@ -55,11 +55,14 @@ def parameter_shapes(
         near = smoothstep(_ORBIT, _LIDS, np.linalg.norm(positions - places[side + "Eye"], axis=1))
         for name, move in (("eyeThrust", EYE_MOVE), ("eyeSink", -EYE_MOVE)):
             shapes[name + side] = near[:, None] * (0.0, 0.0, move)
-    face = positions[groups["body"]]
+    skin = groups["body"]
+    face = positions[skin]
     between = (np.abs(face[:, 0]) < 0.01) & (np.abs(face[:, 1] - places["LeftEye"][1] + 0.035) < 0.025)
     tip = face[between][face[between, 2].argmax()]
+    near = smoothstep(_NOSE_REACH, 0.0, np.linalg.norm(face - tip, axis=1))
     for side, sign in SIDES:
-        shapes["noseTip" + side] = _falloff(positions, tip, _NOSE_REACH)[:, None] * (sign * _NOSE_MOVE, 0.0, 0.0)
+        shapes["noseTip" + side] = np.zeros(positions.shape)
+        shapes["noseTip" + side][skin, 0] = sign * _NOSE_MOVE * near
     tongue = groups["helper-tongue"]
     for name, moved in _tongue_shapes(positions[tongue]).items():
         shapes[name] = np.zeros(positions.shape)
@@ -77,11 +80,6 @@ def visemes(units: Mapping[str, Array]) -> dict[str, Array]:
         )
         for name, entry in table.items()
     }
-
-
-def _falloff(positions: Array, middle: Array, reach: float) -> Array:
-    """1 at a point, and less with the distance from it: (v,)."""
-    return gaussian(np.linalg.norm(positions - middle, axis=1), 0.0, reach)
 
 
 def _tongue_shapes(tongue: Array) -> dict[str, Array]:
