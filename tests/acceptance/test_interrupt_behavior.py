@@ -35,14 +35,14 @@ async def test_a_block_is_interrupted_at_the_start_of_the_interrupt(pilot: Reali
 
 
 async def test_a_behavior_that_comes_after_a_cut_point_keeps_its_time(pilot: RealizerPilot) -> None:
-    after = '<constraint><after ref="s:end"><sync ref="n:start"/></after></constraint>'
-    send(pilot, "talk", TALK + '<head id="n" lexeme="NOD"/>' + after)
-    await pilot.advance(0.4)
-    planned = pilot.feedback.predicted("talk:n:start")
-    send(pilot, "stop", '<bmla:interrupt id="i" target="talk" start="0.1" exclude="n"/>')
+    after = '<constraint><after ref="q:end"><sync ref="p:start"/></after></constraint>'
+    send(pilot, "b", '<gesture id="p" lexeme="OFFER"/><pointing id="q" target="bluebox"/>' + after)
+    await pilot.advance(1)
+    planned = pilot.feedback.predicted("b:p:start")
+    send(pilot, "stop", '<bmla:interrupt id="i" target="b" start="0.5" exclude="p" speech="word"/>')
     await pilot.advance(4)
-    assert pilot.feedback.time("talk:s:end") == pytest.approx(0.5)
-    assert pilot.feedback.time("talk:n:start") == planned
+    assert pilot.feedback.time("b:q:end") == pytest.approx(1.5)
+    assert pilot.feedback.time("b:p:start") == planned
     assert pilot.feedback.warnings == []
 
 
