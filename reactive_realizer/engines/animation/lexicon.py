@@ -9,7 +9,7 @@ from reactive_realizer.bml.attribute_types import Target
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS
-from reactive_realizer.bml.names import BML, BMLT
+from reactive_realizer.bml.names import BML, BMLT, MURML
 from reactive_realizer.engine.lexicon import Changeable, LexiconEntry
 from reactive_realizer.engines.animation.animation_unit import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
@@ -30,7 +30,8 @@ def example_behavior(spec: UnitSpec, target: str) -> str | None:
         target: something to look and point at.
 
     Returns:
-        The element, with id "example". None if the entry needs more from the behavior, such as a file or a joint.
+        The element, with id "example". None if the entry needs more from the behavior, such as a file, a joint or a
+        description in MURML.
     """
     element = ELEMENTS.get(spec.behavior)
     attributes = element.attributes if element and element.namespace == spec.namespace else ()
@@ -39,7 +40,7 @@ def example_behavior(spec: UnitSpec, target: str) -> str | None:
     known = {"id", *(each.name for each in attributes)}
     missing = {each.name for each in attributes if each.required} - values.keys()
     mapped = {to for source, to in spec.parameter_map.items() if source not in values}
-    if missing or mapped & _FROM_BEHAVIOR:
+    if missing or mapped & _FROM_BEHAVIOR or spec.namespace == MURML:
         return None
     tree = etree.Element(f"{{{spec.namespace}}}{spec.behavior}")
     for name, value in values.items():
