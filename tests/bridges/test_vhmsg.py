@@ -64,7 +64,7 @@ class Toolkit:
     async def _tick(self) -> None:
         while True:
             await self._live.step(await anext(self._ticks))
-            await asyncio.sleep(0)
+            await asyncio.sleep(0.001)  # the threads of the broker and of its clients need the interpreter too
 
 
 @pytest.fixture
