@@ -55,13 +55,16 @@ async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
 @pytest.mark.parametrize(
     ("xml", "known"),
     [
-        ('<gesture id="x" lexeme="BEAT">{}</gesture>', "amount, file, joints, mirror, name, postStrokeHoldDuration"),
+        (
+            '<gesture id="x" lexeme="BEAT">{}</gesture>',
+            "amount, file, fluidity, joints, mirror, name, postStrokeHoldDuration",
+        ),
         ('<gesture id="x" lexeme="TWO">{}</gesture>', "a, file, joints, mirror, name, replacementgroup"),
         ('<head id="x" lexeme="NOD">{}</head>', "amount, file, joints, mirror, name, repetition, replacementgroup"),
         ('<gaze id="x" target="bluebox">{}</gaze>', "back, chest, eyes, head, neck, replacementgroup"),
         ('<gazeShift id="x" target="bluebox">{}</gazeShift>', "back, chest, eyes, head, neck, replacementgroup"),
         ('<headDirectionShift id="x" target="bluebox">{}</headDirectionShift>', "back, chest, head, neck"),
-        ('<pointing id="x" target="bluebox">{}</pointing>', "asymmetry, hand, postStrokeHoldDuration"),
+        ('<pointing id="x" target="bluebox">{}</pointing>', "asymmetry, fluidity, hand, postStrokeHoldDuration, power"),
         ('<posture id="x"><stance type="SITTING"/>{}</posture>', "replacementgroup"),
         ('<bmlt:procanimation id="x" name="swing">{}</bmlt:procanimation>', "a, file"),
         ('<bmlt:procanimationgesture id="x" name="swing">{}</bmlt:procanimationgesture>', "a, amount, file"),
