@@ -33,7 +33,7 @@ HURRIED: Final = 0.6
 
 
 class Expressivity(NamedTuple):
-    """How a motion is made. Each number is from -1 to 1; with 0, nothing changes.
+    """The size, duration, force and fluency of a motion, each from -1 to 1; a motion with 0 is unchanged.
 
     Attributes:
         spatial_extent: greater motions are larger.
@@ -74,17 +74,17 @@ class Expressivity(NamedTuple):
 
     @property
     def back_swing(self) -> float:
-        """How far a hand goes in the opposite direction first, as a share of the length of the stroke."""
+        """The length of the back-swing before a stroke, as a share of the length of the stroke."""
         return _BACK_SWING * max(0.0, self.power)
 
     @property
     def swing_hold(self) -> float:
-        """How long it holds there, s."""
+        """The hold at the end of the back-swing, s."""
         return _PAUSE * max(0.0, self.power)
 
     @property
     def rest(self) -> float:
-        """How long a hand rests at a pose without a pause of its own, s."""
+        """The pause that halting motion adds at a pose without one, s."""
         return self.pause(0.0)
 
     def movement(self, duration: float, shortest: float = 0.0, speed: float = 1.0) -> float:
@@ -103,7 +103,7 @@ class Expressivity(NamedTuple):
         return max(0.0, duration - _PAUSE * self.fluidity)
 
     def beyond(self, share: float) -> float:
-        """How far a powerful motion is beyond the end of its stroke, as a share of its length.
+        """The overshoot of a powerful motion past the end of its stroke, as a share of the length of the stroke.
 
         Args:
             share: of the time in which it comes back, 0 to 1.
@@ -111,9 +111,9 @@ class Expressivity(NamedTuple):
         return _BEYOND * max(0.0, self.power) * _bump(share**_EARLY)
 
     def arriving(self, share: float) -> float:
-        """How far a motion is ahead on its way to a pose, as a share of the way: with power, it passes the pose before.
+        """The lead of a motion on its way to a pose, as a share of the way; with negative power, a lag.
 
-        Without power, it lags behind.
+        A powerful motion passes the pose shortly before it reaches it.
 
         Args:
             share: of the time of the way, 0 to 1.

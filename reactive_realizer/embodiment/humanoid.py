@@ -15,13 +15,12 @@ from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.inertialization import Inertialization
 from reactive_realizer.embodiment.joints import CARRYING, EYES, LEFT_ARM, RIGHT_ARM, ROOT
 from reactive_realizer.embodiment.lids import with_lids
-from reactive_realizer.embodiment.place import Place
+from reactive_realizer.embodiment.place import Place, PlannedSteps
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, difference, multiply, power, rotate
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.turn_weights import turns
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, distance, scale, subtract
-from reactive_realizer.embodiment.way import Way
 
 
 class EyePose(NamedTuple):
@@ -75,8 +74,8 @@ class Humanoid:
         self.weight, self.simulation_steps = weight, simulation_steps
         self.place = Place(position, heading)
         """Where it stands; the next move takes place there."""
-        self.way: Callable[[], Way] = Way
-        """Where it goes from there, and on which prints."""
+        self.planned_steps: Callable[[], PlannedSteps] = PlannedSteps
+        """Returns where it walks from there, and on which footprints."""
         self._shown_place = self._place_before = self.place
         self._morphs = {morph: i for i, morph in enumerate(avatar.morphs)}
         self._faced = frozenset(avatar.skeleton.joints).difference(EYES)

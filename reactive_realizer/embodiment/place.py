@@ -1,4 +1,4 @@
-"""Where a figure stands in the world: the origin and the heading of its own frame."""
+"""Where a figure stands in the world, the origin and the heading of its own frame, and where it is about to step."""
 
 import math
 from dataclasses import dataclass
@@ -6,6 +6,7 @@ from functools import cached_property
 
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, from_axis_angle, rotate
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, subtract
+from reactive_realizer.embodiment.world import Ground
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,32 @@ class Place:
     def to_own(self, point: Vec3) -> Vec3:
         """Convert a point of the world to the figure's frame, m."""
         return rotate(conjugate(self.turn), subtract(point, self.position))
+
+
+@dataclass(frozen=True, slots=True)
+class Footprint:
+    """A print of a foot on the ground.
+
+    Attributes:
+        place: the point below the ankle, and where the foot points.
+        made: whether the foot stands there; otherwise it is on its way there.
+    """
+
+    place: Place
+    made: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedSteps:
+    """The path and the footprints of a figure that walks.
+
+    Attributes:
+        path: the points between which it goes straight on, from where it is to its goal; none if it goes nowhere.
+        prints: of its left and its right foot; none if it does not walk.
+    """
+
+    path: tuple[Ground, ...] = ()
+    prints: tuple[Footprint, ...] = ()
 
 
 def between_headings(start: float, goal: float) -> float:

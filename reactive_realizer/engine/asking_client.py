@@ -1,4 +1,4 @@
-"""The client for which slow work is done, so that those who do it can let clients take turns."""
+"""The client for which slow work is done, such as synthesis, so that the clients can take turns."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

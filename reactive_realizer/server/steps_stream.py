@@ -5,7 +5,7 @@ from math import degrees
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.frame import Frame
-from reactive_realizer.embodiment.way import Way
+from reactive_realizer.embodiment.place import PlannedSteps
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.server.frame_watch import FrameWatch
 from reactive_realizer.server.protocol import Message, encode
@@ -21,7 +21,7 @@ class StepsStream:
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
         self._watch: FrameWatch[str] = FrameWatch(realizer, self._publish)
-        self._sent: dict[str, Way] = {}
+        self._sent: dict[str, PlannedSteps] = {}
         self._next = realizer.time
 
     def subscribe(self, listener: Callable[[str], None]) -> Callable[[], None]:
@@ -35,13 +35,13 @@ class StepsStream:
             return
         self._next = GlobalTime(now + _INTERVAL)
         for id_, character in self._realizer.characters.items():
-            way = character.humanoid.way()
-            if way != self._sent.get(id_, Way()):
-                self._sent[id_] = way
-                self._watch.publish(encode(_message(id_, now, way)))
+            steps = character.humanoid.planned_steps()
+            if steps != self._sent.get(id_, PlannedSteps()):
+                self._sent[id_] = steps
+                self._watch.publish(encode(_message(id_, now, steps)))
 
 
-def _message(id_: str, time: GlobalTime, way: Way) -> Message:
+def _message(id_: str, time: GlobalTime, steps: PlannedSteps) -> Message:
     prints = [
         {
             "side": side,
@@ -49,9 +49,9 @@ def _message(id_: str, time: GlobalTime, way: Way) -> Message:
             "heading": round(degrees(each.place.heading), 1),
             "made": each.made,
         }
-        for side, each in zip(_SIDES, way.prints, strict=False)
+        for side, each in zip(_SIDES, steps.prints, strict=False)
     ]
-    path = [_rounded(x, z) for x, z in way.path]
+    path = [_rounded(x, z) for x, z in steps.path]
     return {"type": "steps", "time": round(time, 6), "character": id_, "path": path, "prints": prints}
 
 

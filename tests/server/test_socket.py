@@ -245,7 +245,7 @@ async def test_nobody_asks_where_characters_step_without_a_request(
     async with on_air() as air:
         socket = await air.connect("?streams=frames")
         asked: list[object] = []
-        monkeypatch.setattr(air.live.realizer.characters["alice"].humanoid, "way", lambda: asked.append(1))
+        monkeypatch.setattr(air.live.realizer.characters["alice"].humanoid, "planned_steps", lambda: asked.append(1))
         assert (await socket.ask(type="bml", xml=WALK))["type"] == "accepted"
         await air.tick_until(2.0)
         assert asked == []

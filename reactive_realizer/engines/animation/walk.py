@@ -33,7 +33,7 @@ class Walk:
         self._carriage = Carriage()
         self.feet: tuple[Transform, ...] = ()
         self._walking, self._time = 0.0, GlobalTime(0.0)
-        humanoid.way = self._walker.way
+        humanoid.planned_steps = self._walker.planned_steps
 
     @property
     def active(self) -> bool:

@@ -7,10 +7,9 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Transform
 from reactive_realizer.embodiment.feet import reach, walks
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.place import Place, between_headings
+from reactive_realizer.embodiment.place import Footprint, Place, PlannedSteps, between_headings
 from reactive_realizer.embodiment.quaternion import conjugate, multiply
 from reactive_realizer.embodiment.vector import Vec3, distance
-from reactive_realizer.embodiment.way import Footprint, Way
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.walking.manner import WALK
 from reactive_realizer.engines.animation.walking.progression import Goal, Progression
@@ -137,10 +136,10 @@ class Walker:
         """End the walk of a figure that has arrived."""
         self.progression, self.feet = Progression(self.progression.place), ()
 
-    def way(self) -> Way:
-        """Return where the figure goes, and on which prints."""
+    def planned_steps(self) -> PlannedSteps:
+        """Return the path ahead of the figure, and its footprints."""
         prints = tuple(Footprint(foot.goal, foot.swing is None) for foot in self.feet)
-        return Way(self.progression.path if self.feet else (), prints)
+        return PlannedSteps(self.progression.path if self.feet else (), prints)
 
     def over_ground(self) -> tuple[Vec3, ...]:
         """Return where the feet are in the figure's frame, without their height, m; left first."""
