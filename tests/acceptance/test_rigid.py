@@ -57,3 +57,18 @@ async def test_a_speech_moves_as_a_whole_before_its_start(pilot: RealizerPilot) 
     assert_time(pilot.feedback, "b:s:start", 2.2)
     assert_time(pilot.feedback, "b:s:end", 3.54)
     assert texts(pilot) == []
+
+
+async def test_a_playing_speech_stays_whole_when_the_start_that_it_shares_is_predicted_anew(
+    pilot: RealizerPilot,
+) -> None:
+    """The start of the dropped speech is at 0 s from the shared start, but for rounding."""
+    dropped = WELL.replace('id="s"', 'id="z"').format(f' start="{HIT}"')
+    beat = '<gesture id="q" lexeme="BEAT" mode="RIGHT_HAND" start="s:m+1"/>'
+    late = '<constraint><after ref="q:stroke-0.2"><sync ref="z:end+1"/></after></constraint>'
+    pilot.block("b", WELL.format(' start="z:start"') + beat + dropped + late)
+    pilot.predict("t", "hit", 0.5)
+    await moves(pilot, 0.6, ("hit", 0.65), 4)
+    assert_time(pilot.feedback, "b:s:start", 0.5)
+    assert_time(pilot.feedback, "b:s:m", 0.8)
+    assert_time(pilot.feedback, "b:s:end", 1.84)

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
+from reactive_realizer.scheduler.peg_layout.network import TOLERANCE
 from reactive_realizer.scheduler.peg_layout.peg_rules import AtPosition, Between, PlannedPeg, Position
 from reactive_realizer.scheduler.peg_layout.section import PointRule, Section
 from reactive_realizer.scheduler.problem import Node, Origin, Point
@@ -85,7 +86,8 @@ class PegBuilder:
         peg = self._shared.get(key)
         if peg is None:
             link, offset = self._from_root(position)
-            if offset == 0 and isinstance(link, TimePeg) and link not in self._outer:
+            # Whatever rounding says, a point at its root shares the root's peg: once it has fired, the others stay.
+            if abs(offset) <= TOLERANCE and isinstance(link, TimePeg) and link not in self._outer:
                 peg = link
             else:
                 peg = self._offset(self._name(position), link, offset)
