@@ -3,6 +3,7 @@
 import gc
 import os
 import shutil
+from collections.abc import Generator
 from pathlib import Path
 
 import pytest
@@ -31,7 +32,7 @@ MEASURED = [
         for name in ("emitted_events", "late_ties", "waiting_for_events", "waits")
     ),
 ]
-"""Tests whose coverage is measured. Tracing all tests would double their time."""
+"""Tests whose coverage is measured, with their fixtures. Tracing all tests would double their time."""
 WAITING = ("browser", "align", "kokoro", "piper", "speech")
 """Markers of tests that mostly wait, for sound in a page or for a worker."""
 SHARED = Path(__file__).resolve().parents[2] / "shared"
@@ -55,8 +56,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     # One process begins with the tests that wait, and the others have work meanwhile.
     items[:] = sorted((item for item in items if not _is_left_out(item)), key=_does_not_wait)
     for item in items:
-        if not any(item.path.is_relative_to(measured) for measured in MEASURED):
-            item.add_marker(pytest.mark.no_cover)
         if item.get_closest_marker("browser"):
             # On a busy machine, a page may skip what is shown for a moment: a failure counts if it happens three times.
             item.add_marker(pytest.mark.flaky(reruns=2))
@@ -64,6 +63,15 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             # What one test leaves open may be collected as garbage in another one, which is tried again then.
             item.add_marker(pytest.mark.flaky(reruns=1, only_rerun="unraisable exception|Exception ignored in"))
     config.hook.pytest_deselected(items=left_out)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+    coverage = getattr(item.config.pluginmanager.get_plugin("_cov"), "cov_controller", None)
+    measured = any(item.path.is_relative_to(measured) for measured in MEASURED)
+    if coverage is not None and measured is not coverage.started:
+        (coverage.resume if measured else coverage.pause)()
+    return (yield)
 
 
 def pytest_collection_finish() -> None:

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 import pytest_asyncio
 from aiohttp import web
-from playwright.async_api import Browser, Page, ViewportSize, async_playwright
+from playwright.async_api import Browser, BrowserContext, Page, ViewportSize, async_playwright, expect
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
@@ -21,22 +21,24 @@ from reactive_realizer.server.security import Security
 
 WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
 SMALL: ViewportSize = {"width": 900, "height": 500}
+PATIENCE = 60_000
+"""The longest time for which a page is waited for, ms: on a busy machine it is drawn in software at a frame a second."""
+
+expect.set_options(timeout=PATIENCE)
 
 
 @dataclass
 class ServedScene:
-    """A live scene that is served, and a browser to open it in."""
+    """A live scene that is served, and the context of a browser to open it in."""
 
     live: LiveScene
     address: str
-    browser: Browser
-    pages: list[Page] = field(default_factory=list)
+    context: BrowserContext
     errors: list[str] = field(default_factory=list)
 
     async def open(self, query: str = "?quality=low", address: str | None = None) -> Page:
         """A page that shows every character, by default from the server's own address; errors of the page are kept."""
-        page = await self.browser.new_page(viewport=SMALL)
-        self.pages.append(page)
+        page = await self.context.new_page()
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         await page.goto((address or self.address) + query)
@@ -71,12 +73,12 @@ def serve(browser: Browser, tmp_path: Path) -> Serve:
         async with (
             open_scene(SceneOptions(file, voice, assets)) as scene,
             served(LiveScene(scene, SystemClock())) as (live, address),
+            await browser.new_context(viewport=SMALL) as context,  # closes its pages, which draw as long as they are open
         ):
-            served_scene = ServedScene(live, address, browser)
+            context.set_default_timeout(PATIENCE)
+            served_scene = ServedScene(live, address, context)
             yield served_scene
-            for page in served_scene.pages:
-                await page.close()
-            assert not served_scene.errors
+        assert not served_scene.errors
 
     return open_
 
@@ -87,11 +89,13 @@ async def served(live: LiveScene) -> AsyncIterator[tuple[LiveScene, str]]:
         ticking = group.create_task(live.run())
         runner = web.AppRunner(create_app(live, Security()), handler_cancellation=True, shutdown_timeout=1)
         await runner.setup()
-        await web.TCPSite(runner, "127.0.0.1", 0).start()
-        host, port = runner.addresses[0]
-        yield live, f"http://{host}:{port}/"
-        await runner.cleanup()
-        ticking.cancel()
+        try:
+            await web.TCPSite(runner, "127.0.0.1", 0).start()
+            host, port = runner.addresses[0]
+            yield live, f"http://{host}:{port}/"
+        finally:
+            await runner.cleanup()
+            ticking.cancel()
 
 
 @asynccontextmanager

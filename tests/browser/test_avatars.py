@@ -15,7 +15,7 @@ from .conftest import Serve
 pytestmark = [
     pytest.mark.browser,
     pytest.mark.speech,
-    pytest.mark.timeout(120),
+    pytest.mark.timeout(300),
     pytest.mark.asyncio(loop_scope="module"),
 ]
 

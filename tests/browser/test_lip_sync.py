@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = [pytest.mark.browser, pytest.mark.speech, pytest.mark.timeout(200)]
+pytestmark = [pytest.mark.browser, pytest.mark.speech, pytest.mark.timeout(400)]
 
 ROOT = Path(__file__).parents[2]
 SECONDS = 15

@@ -14,7 +14,7 @@ from reactive_realizer.realizer.inputs import TickInputs
 
 from .conftest import Serve, far_away
 
-pytestmark = [pytest.mark.browser, pytest.mark.timeout(120), pytest.mark.asyncio(loop_scope="module")]
+pytestmark = [pytest.mark.browser, pytest.mark.timeout(300), pytest.mark.asyncio(loop_scope="module")]
 
 BML = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0"'
 BMLT = 'xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
@@ -194,7 +194,7 @@ async def test_a_page_far_away_plays_speech_from_its_first_word_without_fetching
         page.on("request", lambda request: fetched.append(request.url))
         for number in range(2):
             await send(page, f'<bml {BML} id="b{number}"><speech id="s"><text>one two three four</text></speech></bml>')
-            await expect(page.locator("#feedback")).to_contain_text(f"b{number}:s:end", timeout=20_000)
+            await expect(page.locator("#feedback")).to_contain_text(f"b{number}:s:end")
         assert not any(url.endswith(".wav") for url in fetched)
         # A machine that is so slow that the sound comes a second late leaves out that.
         assert 0 in await page.evaluate("offsets")
@@ -246,7 +246,7 @@ async def test_a_speech_whose_sound_is_delayed_moves_to_what_is_heard(serve: Ser
         # Where the browser itself lags, it reports that too.
         heard = [each.time - each.position for each in reports]
         assert max(start + 0.2, min(heard) - 0.03) < move < max(heard) + 0.03
-        await expect(page.locator("#feedback")).to_contain_text("say:s:end", timeout=20_000)
+        await expect(page.locator("#feedback")).to_contain_text("say:s:end")
 
 
 async def test_each_of_two_figures_performs_its_own_behavior(serve: Serve) -> None:
@@ -307,7 +307,7 @@ async def test_physics_is_turned_on_and_off_and_a_figure_that_is_pushed_over_is_
         # Before, the push had no effect; now, one does.
         assert (await page.evaluate(head))[1] == pytest.approx(tall, abs=0.03)
         await page.click("#push-back")
-        await expect(page.locator("#feedback .row.fall")).to_contain_text("alice has fallen", timeout=20_000)
+        await expect(page.locator("#feedback .row.fall")).to_contain_text("alice has fallen")
         await page.wait_for_function(f"() => {head}[1] < 0.5 && {head}[2] > 0.3")
         await page.click("#reset")
         await expect(page.locator("#physics-bml")).to_be_checked()
