@@ -22,7 +22,7 @@ from reactive_realizer.server.security import Security
 WITH_SOUND = "--autoplay-policy=no-user-gesture-required"
 SMALL: ViewportSize = {"width": 900, "height": 500}
 PATIENCE = 60_000
-"""The longest time for which a page is waited for, ms: on a busy machine it is drawn in software at a frame a second."""
+"""The longest time for which a page is waited for, ms: software on a busy machine may draw it once a second."""
 
 expect.set_options(timeout=PATIENCE)
 
@@ -73,7 +73,9 @@ def serve(browser: Browser, tmp_path: Path) -> Serve:
         async with (
             open_scene(SceneOptions(file, voice, assets)) as scene,
             served(LiveScene(scene, SystemClock())) as (live, address),
-            await browser.new_context(viewport=SMALL) as context,  # closes its pages, which draw as long as they are open
+            await browser.new_context(
+                viewport=SMALL
+            ) as context,  # closes its pages, which draw as long as they are open
         ):
             context.set_default_timeout(PATIENCE)
             served_scene = ServedScene(live, address, context)
