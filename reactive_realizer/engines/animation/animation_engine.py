@@ -251,10 +251,8 @@ class AnimationEngine(DefaultEngine):
 
     def _possible_bodies(self) -> tuple[Body, ...]:
         planned = (*self.player.playing, *self._drafts.values())
-        return (
-            *temporary_bodies(unit.motion for unit in planned if isinstance(unit, AnimationUnit)),
-            *self._interrupted_bodies,
-        )
+        bodies = temporary_bodies(unit.motion for unit in planned if isinstance(unit, AnimationUnit))
+        return tuple(dict.fromkeys((*bodies, *self._interrupted_bodies)))
 
     def _idle_change(self, block: BlockKey, behavior: IdleChange) -> IdleChangeUnit:
         """Plan a change of idle animation.
