@@ -217,8 +217,6 @@ spellings of the drafts. It does not guess: anything outside this table causes a
 | `gesture type="POINT" target="..."` | `pointing` |
 | `gesture hand="LEFT"` | `mode="LEFT_HAND"` |
 | `gaze type="AT"`, `gaze modality` | ignored, and `influence`; LEGS means WHOLE |
-| `gaze sbm:joint-range="EYES NECK"` | `influence="HEAD"`; CHEST is SHOULDER, BACK is WAIST |
-| `gaze sbm:target-pos="0.5 1.6 2"` | `target`; three numbers are a point in the world, m |
 | `gaze` without `target` | `target="viewer"` |
 | `face type="FACS" au="..."`, `type="LEXICALIZED" lexeme="..."` | `faceFacs`, `faceLexeme` |
 | `face au="1_left"` | `au="1" side="left"` |
@@ -235,6 +233,7 @@ spellings of the drafts. It does not guess: anything outside this table causes a
 | `<lips>`, `<curves>` | left out with one warning: the lips follow the sound |
 | `synchronize ref="..."` | an additional `sync` in it |
 | `event message="NAME content" stroke="..."` | `bmla:emit event="NAME" start="..."` with the content |
+| other elements and attributes of SmartBody | [see there](dialects.md#smartbody) |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
 | names of elements in capital letters, or of Greta's namespace | in lowercase, without a namespace |
 

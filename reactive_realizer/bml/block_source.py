@@ -23,6 +23,7 @@ from reactive_realizer.bml.faults import (
     UnknownElement,
 )
 from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT, Location
+from reactive_realizer.bml.smartbody.requests import UNCLOSED_MARK
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS, SyncRef
 from reactive_realizer.bml.trees import (
     Tree,
@@ -237,7 +238,8 @@ class BlockIds:
         self.external = True
         self._block = block.get("id", "").strip()
         self._behaviors = {id_.strip() for each in _behaviors_in(block) if (id_ := each.get("id"))}
-        self._marks = frozenset(id_ for mark in block.iter("{*}sync", "{*}tm") if (id_ := mark.get("id")))
+        marks = block.iter("{*}sync", "{*}tm", f"{{*}}{UNCLOSED_MARK}", "{*}mark")
+        self._marks = frozenset(id_ for mark in marks if (id_ := mark.get("id") or mark.get("name")))
         self._numbers: defaultdict[str, Iterator[int]] = defaultdict(partial(count, 1))
 
     def give(self, behavior: Tree) -> None:

@@ -12,6 +12,7 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.drafts import modernize
 from reactive_realizer.bml.extensions import Controller
 from reactive_realizer.bml.faults import DuplicateId, LipsLeftOut, MissingElement, MoreProblems, TooManyBehaviors
+from reactive_realizer.bml.smartbody.behaviors import adapt, is_of_smartbody
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of
 from reactive_realizer.errors import Fault, RealizerError, quoted
@@ -132,9 +133,10 @@ class ContentReader:
 
     def _read_behavior(self, tree: Tree, order: int, required: bool) -> None:
         notes: list[Fault] = []
+        draft = is_of_smartbody(tree)
         try:
-            if _is_draft(tree):
-                notes += modernize(tree, self._source)
+            if draft:
+                notes += [*adapt(tree, self._source), *modernize(tree, self._source)]
             behavior = read_behavior(tree, self._source, order, required, notes)
             if behavior.id in self._behaviors:
                 raise RealizerError(self._source.located(tree, DuplicateId(element=name_of(tree), id=behavior.id)))
@@ -143,7 +145,7 @@ class ContentReader:
             self._drop(refused.fault, required, tree.get("id"))
         else:
             self._behaviors[behavior.id] = behavior
-            if _is_draft(tree):
+            if draft:
                 self._drafts.append(behavior.id)
             self.report(notes, behavior.id)
 

@@ -32,6 +32,7 @@ from reactive_realizer.bml.faults import (
     TooManyRoots,
 )
 from reactive_realizer.bml.names import BLOCK, CONTINUOUS
+from reactive_realizer.bml.smartbody.requests import Request
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS, SyncRef
 from reactive_realizer.bml.trees import Tree, extensions_of, is_continuous, is_core, name_of
 from reactive_realizer.bml.xml_roots import Root, decode, read_roots
@@ -73,8 +74,9 @@ def _read(text: str | bytes, limits: Limits, name: str) -> Iterator[Parsed]:
     size = len(text) if isinstance(text, bytes) else len(text.encode("utf-8", "surrogatepass"))
     if size > limits.bml_bytes:
         raise RealizerError(TooManyBytes(size=size, limit=limits.bml_bytes, line=1, column=1))
-    ids = BlockNames(name)
-    for root in unwrapped(read_roots(text if isinstance(text, str) else decode(text), limits)):
+    request = Request.read(text if isinstance(text, str) else decode(text))
+    ids = BlockNames(request.name or name, request.agent)
+    for root in unwrapped(read_roots(request.document, limits)):
         if isinstance(root, Problem):
             yield Parsed(None, (root,))
         else:

@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Iterator
 from typing import Final
 
-from reactive_realizer.bml.block import Problem
+from reactive_realizer.bml.block import CAST, Problem
 from reactive_realizer.bml.faults import LeftOut, NoBlock
-from reactive_realizer.bml.names import BLOCK
+from reactive_realizer.bml.names import BLOCK, SBM
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 from reactive_realizer.bml.xml_roots import Root
 from reactive_realizer.errors import Fault
@@ -14,33 +14,44 @@ _WRAPPERS: Final = frozenset({"fml-apml", "act"})
 """Elements around blocks: of Greta, with its intentions (FML) beside them, and of SmartBody."""
 _GRETA: Final = "gretaNameSpace"
 """The namespace in which Greta writes its additions to BML."""
-_ROUTING: Final = "participant"
-"""The element by which SmartBody addresses an act; here, whoever sends a document does that."""
+_SMARTBODY, _SBM = "{http://ict.usc.edu}", f"{{{SBM}}}"
+"""The namespace that components of the Virtual Human Toolkit declare for SmartBody's additions, and ours for them."""
+_PARTICIPANT: Final = "participant"
+"""The element of SmartBody that says who plays an act, and to whom it is addressed."""
+_ACTOR: Final = "actor"
+_CAST: Final = f"{{{CAST[0]}}}{CAST[1]}"
 
 
 def rename_elements(block: Tree) -> None:
-    """Rewrite the names of elements of a draft, in place: those in capital letters, and those in Greta's namespace."""
+    """Rewrite the names of a draft, in place: those in capital letters, and in the namespaces of other systems."""
     if not namespace_of(block):
         for each in block.iter("*"):
             if namespace_of(each) == _GRETA:
                 each.tag = name_of(each)
             if each.tag.isupper():  # EMBOTS
                 each.tag = each.tag.lower()
+            each.tag = each.tag.replace(_SMARTBODY, _SBM)
+            for name in [name for name in map(str, each.keys()) if name.startswith(_SMARTBODY)]:
+                each.set(name.replace(_SMARTBODY, _SBM), each.attrib.pop(name))
 
 
 class BlockNames:
-    """Gives ids to the blocks of a document that have none.
+    """Gives ids to the blocks of a document that have none, and their character if the document has a request for it.
 
     Args:
         name: of the document.
+        agent: who is requested to play it; empty if nothing says so.
     """
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, agent: str = "") -> None:
         self._name = name
+        self._agent = agent
         self._given = 0
 
     def give(self, block: Tree) -> None:
-        """Give a block of a draft an id if it has none."""
+        """Give a block its character, and one of a draft an id if it has none."""
+        if self._agent and _is_block(block):
+            block.set(_CAST, self._agent)
         if namespace_of(block) or not _is_block(block) or block.get("id") is not None:
             return
         self._given += 1
@@ -59,7 +70,9 @@ def unwrapped(roots: Iterable[Root | Problem]) -> Iterator[Root | Problem]:
 def _inside(wrapper: Root) -> Iterator[Root | Problem]:
     """The blocks in a wrapper; the first one has the notes about what is left out."""
     blocks = [child for child in wrapper.tree if _is_block(child)]
-    others = (child for child in wrapper.tree if not _is_block(child) and name_of(child) != _ROUTING)
+    participants = [child for child in wrapper.tree if name_of(child) == _PARTICIPANT]
+    actor = next((each.get("id", "") for each in participants if each.get("role", _ACTOR) == _ACTOR), "")
+    others = (child for child in wrapper.tree if not _is_block(child) and child not in participants)
     left_out = [child for child in others if len(child) + len(child.attrib)]
     notes: list[Fault] = []
     if left_out:
@@ -70,6 +83,8 @@ def _inside(wrapper: Root) -> Iterator[Root | Problem]:
         place = wrapper.locations[wrapper.tree]
         yield Problem(NoBlock().located(place.line, place.column), BLOCK)
     for number, block in enumerate(blocks):
+        if actor:
+            block.set(_CAST, actor)
         yield Root(block, wrapper.locations, tuple(notes) if number == 0 else ())
 
 

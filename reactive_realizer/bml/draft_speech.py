@@ -12,6 +12,7 @@ from lxml import etree
 
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import TooMuchMarkup, UnknownMark
+from reactive_realizer.bml.smartbody.requests import UNCLOSED_MARK
 from reactive_realizer.bml.ssml_reader import MOST_MARKUP
 from reactive_realizer.bml.ssml_values import LONGEST_BREAK
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -22,7 +23,7 @@ _OF_OTHER_VOICES: Final = ("language", "voice", "type")
 """Attributes that select a voice of another system; the voice of the character speaks."""
 _OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax")
 """Sync points that speech files of SmartBody state, and that a speech does not have."""
-_MARKS: Final = ("tm", "mark")
+_MARKS: Final = ("tm", UNCLOSED_MARK, "mark")
 _ACCENT, _BOUNDARY = "pitchaccent", "boundary"
 _STRENGTHS: Final = ("strong", "moderate", "reduced", "none")
 _LEVELS: Final = {"none": "none", "reduced": "reduced", "low": "reduced", "strong": "strong", "high": "strong"}
@@ -30,6 +31,8 @@ _LEVELS: Final = {"none": "none", "reduced": "reduced", "low": "reduced", "stron
 
 def modernize_speech(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a speech as BML 1.0, in place, and returns the faults of accents and boundaries that are left out."""
+    if any(name in tree.attrib for name in _OTHER_POINTS):
+        tree.attrib.pop("end", "")  # in these files, the same for every recording
     for name in (*_OF_OTHER_VOICES, *_OTHER_POINTS):
         tree.attrib.pop(name, "")
     for holder in (tree, *children_of(tree, "text")):

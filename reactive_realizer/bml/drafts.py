@@ -13,10 +13,9 @@ from typing import Final
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.draft_speech import modernize_speech
 from reactive_realizer.bml.faults import UnknownWord
-from reactive_realizer.bml.names import BMLA, SBM
+from reactive_realizer.bml.names import BMLA
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
-from reactive_realizer.bml.trees import Tree, children_of, name_of
-from reactive_realizer.bml.vocabulary import Influence
+from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
 from reactive_realizer.errors import Fault, RealizerError
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
@@ -33,14 +32,6 @@ _PART: Final = re.compile(r"0?\.[0-9]+")
 _SIDED: Final = re.compile("([0-9]+)_(left|right|both)", re.IGNORECASE)
 _AHEAD: Final = "viewer"
 """The target of a gaze that names none."""
-_JOINT_RANGE, _TARGET_POSITION = f"{{{SBM}}}joint-range", f"{{{SBM}}}target-pos"
-_RANGES: Final = {
-    "EYES": Influence.EYES,
-    "NECK": Influence.HEAD,
-    "CHEST": Influence.SHOULDER,
-    "BACK": Influence.WAIST,
-}
-"""Joints that SmartBody turns to a target."""
 _FACES: Final = {"FACS": "faceFacs", "LEXICALIZED": "faceLexeme"}
 
 
@@ -107,10 +98,6 @@ def _gesture(tree: Tree, source: BlockSource) -> None:
 def _gaze(tree: Tree, source: BlockSource) -> None:
     _check(tree, "type", ["AT", "GAZE"], source)
     _rename(tree, "modality", "influence", {"LEGS": "WHOLE"})
-    joints = str(tree.attrib.pop(_JOINT_RANGE, "")).upper().split()
-    if joints and "influence" not in tree.attrib:
-        tree.set("influence", max((_RANGES[joint] for joint in joints if joint in _RANGES), default=Influence.HEAD))
-    _rename(tree, _TARGET_POSITION, "target")
     if "target" not in tree.attrib:
         tree.set("target", _AHEAD)
 
@@ -173,7 +160,7 @@ def _synchronize(tree: Tree, source: BlockSource) -> None:
 
 def _event(tree: Tree, source: BlockSource) -> None:
     """SmartBody's event: the first word of its message is the name, as on its message bus, and the rest the content."""
-    name, _, content = _take(tree, "message").partition(" ")
+    name, _, content = (_take(tree, "message") or stray_text_of(tree)).partition(" ")
     tree.tag = f"{{{BMLA}}}emit"
     _rename(tree, "stroke", "start")
     if name:

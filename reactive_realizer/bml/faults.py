@@ -408,6 +408,16 @@ class ForeignAttribute(Fault):
     namespace: str
 
 
+class NoCounterpart(Fault):
+    """Attributes of SmartBody that nothing here corresponds to."""
+
+    code = "no-counterpart"
+    template = "{attributes} of SmartBody has no effect on <{element}> here"
+    warning = WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
+    element: str
+    attributes: tuple[str, ...]
+
+
 class UnknownReference(SchedulingFault):
     """A reference to a behavior that does not exist."""
 

@@ -1,0 +1,85 @@
+"""Attributes of SmartBody: read, taken out of elements, and written as those of BML 1.0 and its extensions."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+from lxml import etree
+
+from reactive_realizer.bml.attribute_types import Float
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.faults import NoCounterpart
+from reactive_realizer.bml.names import BMLT, SBM
+from reactive_realizer.bml.trees import PARAMETER, Tree, name_of
+from reactive_realizer.errors import Fault, RealizerError
+
+_PREFIX: Final = f"{{{SBM}}}"
+
+
+def take(tree: Tree, name: str) -> str:
+    """Removes an attribute, written with SmartBody's prefix or without; its text, empty if it is not written."""
+    plain, own = (str(tree.attrib.pop(each, "")).strip() for each in (name, _PREFIX + name))
+    return own or plain
+
+
+def take_number(tree: Tree, name: str, source: BlockSource, low: float, high: float) -> float | None:
+    """Removes an attribute that is a number from `low` to `high`; None if it is not written.
+
+    Raises:
+        RealizerError: ``bad-attribute``: it is not such a number.
+    """
+    text = take(tree, name)
+    if not text:
+        return None
+    try:
+        return Float(low, high).read(text, source.limits)
+    except RealizerError as refused:
+        raise source.bad_attribute(tree, name, text, refused) from None
+
+
+def drop(tree: Tree, *names: str) -> None:
+    """Removes attributes that make no difference here."""
+    for name in names:
+        take(tree, name)
+
+
+def rename(tree: Tree, old: str, new: str, words: Mapping[str, str] = MappingProxyType({})) -> None:
+    """Writes the value of an attribute of SmartBody as that of another attribute, unless this one exists too."""
+    value = take(tree, old)
+    if value and new not in tree.attrib:
+        tree.set(new, words.get(value.upper(), value))
+
+
+def set_parameter(tree: Tree, name: str, value: str, source: BlockSource) -> None:
+    """Gives a value to a parameter of the motion that plays a behavior."""
+    child = etree.SubElement(tree, f"{{{BMLT}}}{PARAMETER}", {"name": name, "value": value})
+    source.place(child, tree)
+
+
+def tie(tree: Tree, point: str, other: str, seconds: float) -> None:
+    """Ties a point of a behavior to another one, unless it is tied already.
+
+    Args:
+        tree: the behavior, which has an id.
+        point: name of the point.
+        other: name of the other one.
+        seconds: from the other one to the point.
+    """
+    if point not in tree.attrib:
+        tree.set(point, f"{tree.get('id', '')}:{other}{seconds:+g}")
+
+
+def left_out(tree: Tree, source: BlockSource, *names: str) -> list[Fault]:
+    """One fault for the attributes that have no counterpart here, which are removed.
+
+    Args:
+        tree: their element.
+        source: its block.
+        names: of those without SmartBody's prefix; all with it count.
+    """
+    plain = [name for name in names if tree.attrib.pop(name, "")]
+    own = [name for name in map(str, tree.keys()) if name.startswith(_PREFIX)]
+    for name in own:
+        del tree.attrib[name]
+    attributes = (*plain, *(f"sbm:{name.removeprefix(_PREFIX)}" for name in own))
+    return [source.located(tree, NoCounterpart(element=name_of(tree), attributes=attributes))] if attributes else []

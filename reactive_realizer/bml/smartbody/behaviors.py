@@ -1,0 +1,125 @@
+"""Rewrites behaviors with SmartBody's elements and attributes as those of a draft of BML and its extensions.
+
+Names, units and defaults are those of SmartBody's sources (SmartBody-bml, by the University of Southern California).
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Final
+
+from reactive_realizer.bml.behaviors import MOST_REPETITIONS
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.names import BMLA, SBM
+from reactive_realizer.bml.smartbody.attributes import (
+    drop,
+    left_out,
+    rename,
+    set_parameter,
+    take,
+    take_number,
+    tie,
+)
+from reactive_realizer.bml.smartbody.gaze import adapt_gaze
+from reactive_realizer.bml.smartbody.gestures import adapt_clip, adapt_gesture
+from reactive_realizer.bml.trees import Tree, name_of, namespace_of
+from reactive_realizer.errors import Fault
+
+_LONGEST: Final = 60.0
+_MOST_VELOCITY: Final = 20.0
+_BEGINNING, _NOD = 0.3, 0.4
+"""Duration of a nod or shake at the velocity 1, and how much of it each of its strokes takes, s."""
+_WAVES: Final = 3
+"""Waves of a wiggle or waggle."""
+_OF_WALKERS: Final = {"speed": "speed", "facing": "facing", "proximity": "distance"}
+"""Attributes of a locomotion, and the parameters that they are here."""
+_MANNERS: Final = {"JOG": "RUN", "SBM:STEP": "STRAFE", "SIDESTEP": "STRAFE"}
+_RAMPS: Final = {
+    "duration": ("end", "start", 1.0),
+    "rampup": ("attackPeak", "start", 1.0),
+    "rampdown": ("relax", "end", -1.0),
+}
+"""Times of a face, and the points that they tie: after another one, or before it."""
+_WITHOUT_EFFECT: Final = ("group", "priority", "participant")
+"""Attributes that make no difference in SmartBody's motion either: they are for its tools and for generators."""
+
+
+def is_of_smartbody(tree: Tree) -> bool:
+    """Whether a behavior may have elements or attributes of SmartBody: it is in its namespace, or in none."""
+    return namespace_of(tree) in {"", SBM}
+
+
+def adapt(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a behavior in place, and returns the faults of what is left out.
+
+    Args:
+        tree: the behavior, which has an id.
+        source: its block.
+
+    Raises:
+        RealizerError: ``bad-attribute``.
+    """
+    rewrite = _REWRITES.get(name_of(tree))
+    if rewrite is None and namespace_of(tree) == SBM:
+        return []
+    if namespace_of(tree) == SBM:
+        tree.tag = name_of(tree)
+    drop(tree, *_WITHOUT_EFFECT)
+    faults = rewrite(tree, source) if rewrite is not None else []
+    return [*faults, *left_out(tree, source)]
+
+
+def _interrupt(tree: Tree, source: BlockSource) -> list[Fault]:
+    rename(tree, "act", "target")
+    tree.tag = f"{{{BMLA}}}interrupt"
+    return []
+
+
+def _head(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a movement of the head; its axis makes no difference in SmartBody either."""
+    repeats = take_number(tree, "repeats", source, 0.0, MOST_REPETITIONS)
+    velocity = take_number(tree, "velocity", source, 0.01, _MOST_VELOCITY)
+    period = take_number(tree, "period", source, 0.01, _LONGEST)
+    strokes = max(1, round(repeats or 1.0))
+    if repeats is not None and "repetition" not in tree.attrib:
+        tree.set("repetition", str(strokes))
+    if velocity is not None and velocity != 1.0:
+        tie(tree, "end", "start", (_BEGINNING + _NOD * strokes) / velocity)
+    if period is not None:
+        tie(tree, "end", "start", _WAVES * period * strokes)
+    drop(tree, "axis")
+    return left_out(tree, source)
+
+
+def _locomotion(tree: Tree, source: BlockSource) -> list[Fault]:
+    for name, parameter in _OF_WALKERS.items():
+        if value := take(tree, name):
+            set_parameter(tree, parameter, value, source)
+    manner = take(tree, "manner")
+    if manner:
+        tree.set("manner", _MANNERS.get(manner.upper(), manner))
+    drop(tree, "type")
+    return left_out(tree, source)
+
+
+def _face(tree: Tree, source: BlockSource) -> list[Fault]:
+    for name, (point, other, sign) in _RAMPS.items():
+        seconds = take_number(tree, name, source, 0.0, _LONGEST)
+        if seconds is not None:
+            tie(tree, point, other, sign * seconds)
+    return left_out(tree, source)
+
+
+def _as_it_is(tree: Tree, source: BlockSource) -> list[Fault]:
+    return []
+
+
+_REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], list[Fault]]]] = {
+    "interrupt": _interrupt,
+    "event": _as_it_is,
+    "head": _head,
+    "face": _face,
+    "gaze": adapt_gaze,
+    "gesture": adapt_gesture,
+    "locomotion": _locomotion,
+    **dict.fromkeys(("animation", "states", "blend"), adapt_clip),
+    "speech": _as_it_is,
+}

@@ -1,0 +1,101 @@
+"""Gazes of SmartBody: which joints turn, in which direction from the target, and how fast."""
+
+import re
+from typing import Final
+
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.smartbody.attributes import (
+    drop,
+    left_out,
+    rename,
+    set_parameter,
+    take,
+    take_number,
+    tie,
+)
+from reactive_realizer.bml.trees import Tree
+from reactive_realizer.bml.vocabulary import Influence, OffsetDirection
+from reactive_realizer.errors import Fault
+
+_KEYS: Final = {
+    "BACK": "back",
+    "LUMBAR": "back",
+    "CHEST": "chest",
+    "THORAX": "chest",
+    "NECK": "neck",
+    "CERVICAL": "neck",
+    "HEAD": "head",
+    "SKULL": "head",
+    "CRANIAL": "head",
+    "EYES": "eyes",
+    "OPTICAL": "eyes",
+}
+"""Joints that SmartBody turns to a target, and the groups of joints of a gaze here."""
+_INFLUENCES: Final = {
+    "back": Influence.WAIST,
+    "chest": Influence.SHOULDER,
+    "neck": Influence.HEAD,
+    "head": Influence.HEAD,
+    "eyes": Influence.EYES,
+}
+"""Groups of joints, from the bottom to the top, and the part of the body that turns if they are the lowest."""
+_AROUND: Final = (
+    OffsetDirection.UP,
+    OffsetDirection.UPRIGHT,
+    OffsetDirection.RIGHT,
+    OffsetDirection.DOWNRIGHT,
+    OffsetDirection.DOWN,
+    OffsetDirection.DOWNLEFT,
+    OffsetDirection.LEFT,
+    OffsetDirection.UPLEFT,
+)
+"""Directions from the target, clockwise, each 45 degrees from the one before."""
+_POLAR: Final = re.compile(r"POLAR\s+([-+]?[0-9.]+)", re.IGNORECASE)
+_USUAL_ANGLE: Final = "30"
+_LONGEST: Final = 60.0
+_JOINTS: Final = {"base": "HumanoidRoot", "eyeball_left": "l_eyeball_joint", "eyeball_right": "r_eyeball_joint"}
+"""Names of joints in SmartBody's skeletons that differ from those of H-Anim."""
+
+
+def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a gaze, in place, and returns the faults of what is left out.
+
+    A later gaze replaces one that persists, whatever their handles are.
+    """
+    _choose_joints(tree, source)
+    _offset(tree)
+    rename(tree, "target-pos", "target")
+    if "target" in tree.attrib:
+        tree.set("target", named_joint(tree.get("target", "")))
+    for name in ("time-hint", "fade-in"):
+        if time := take_number(tree, name, source, 0.0, _LONGEST):
+            tie(tree, "ready", "start", time)
+    drop(tree, "handle")
+    return left_out(tree, source)
+
+
+def named_joint(target: str) -> str:
+    """A target whose joint, if it names one, has the name of H-Anim."""
+    owner, separator, joint = target.partition(":")
+    return f"{owner}:{_JOINTS.get(joint, joint)}" if separator else target
+
+
+def _choose_joints(tree: Tree, source: BlockSource) -> None:
+    """From the lowest to the highest of the joints that are named, as SmartBody does."""
+    named = [_KEYS[key] for key in take(tree, "joint-range").upper().split() if key in _KEYS]
+    if not named or "influence" in tree.attrib:
+        return
+    groups = list(_INFLUENCES)
+    places = [groups.index(group) for group in named]
+    tree.set("influence", _INFLUENCES[groups[min(places)]])
+    for group in groups[max(places) + 1 :]:
+        set_parameter(tree, group, "0", source)
+
+
+def _offset(tree: Tree) -> None:
+    direction, angle = take(tree, "direction"), take(tree, "angle")
+    if not direction:
+        return
+    polar = _POLAR.fullmatch(direction)
+    tree.set("offsetDirection", _AROUND[round(float(polar[1]) / 45.0) % 8] if polar else direction)
+    tree.set("offsetAngle", angle or _USUAL_ANGLE)

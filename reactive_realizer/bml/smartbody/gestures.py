@@ -1,0 +1,73 @@
+"""Gestures of SmartBody: clips by name, and classes of gestures with a type, which its gesture maps make clips of."""
+
+from typing import Final
+
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.names import BMLT
+from reactive_realizer.bml.smartbody.attributes import drop, left_out, take, take_number, tie
+from reactive_realizer.bml.trees import Tree
+from reactive_realizer.errors import Fault
+
+_CLASSES: Final = frozenset({"ADAPTOR", "BEAT", "DEICTIC", "EMBLEM", "ICONIC", "METAPHORIC"})
+_LEXEMES: Final = {
+    "RHYTHM": "BEAT",
+    "CONTRAST": "BEAT",
+    "QUESTION": "BEAT",
+    "INTENSIFIER_POSITIVE": "BEAT",
+    "HERE": "BEAT",
+    "CENTER": "BEAT",
+    "OBLIGATION": "CHOP",
+    "YOU": "OFFER",
+    "UNCERTAINTY": "OFFER",
+    "INDIFFERENCE": "OFFER",
+    "ME": "SELF",
+    "WE": "CONDUIT",
+    "INCLUSIVITY": "CONTAINER",
+    "SURROUND": "CONTAINER",
+    "ASIDE": "FLICK",
+    "NEGATION": "REFUSE",
+    "EMPTY": "REFUSE",
+    "STOP": "REFUSE",
+    "GREETING": "GREET",
+}
+"""Types of SmartBody's gesture maps (BehaviorSetGestures), and the lexemes here that are most like their clips."""
+_CLIP: Final = f"{{{BMLT}}}keyframe"
+_OF_CLIPS: Final = (
+    "style",
+    "emotion",
+    "overlay",
+    "prestroke_hold_idlemotion",
+    "poststroke_hold_idlemotion",
+    "x",
+    "y",
+    "z",
+)
+"""Attributes for the choice, the combination and the mixture of clips."""
+_HOLDS: Final = {"prestroke_hold": ("ready", "strokeStart"), "poststroke_hold": ("strokeEnd", "relax")}
+_LONGEST_HOLD: Final = 60.0
+
+
+def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a gesture, in place, and returns the faults of what is left out."""
+    faults = left_out(tree, source, *_OF_CLIPS)
+    if "name" in tree.attrib:
+        drop(tree, "lexeme", "type", "mode")
+        tree.tag = _CLIP
+        return faults
+    if tree.get("lexeme", "").upper() in _CLASSES and "type" in tree.attrib:
+        kind = take(tree, "type")
+        tree.set("lexeme", _LEXEMES.get(kind.upper(), kind))
+    for name, (first, last) in _HOLDS.items():
+        hold = take_number(tree, name, source, -1.0, _LONGEST_HOLD)
+        if hold is not None and hold > 0.0:
+            tie(tree, last, first, hold)
+    return faults
+
+
+def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites an animation, a state or a blend, in place: the clip of its name is played as it is."""
+    if tree.get("speed", "1") in {"1", "1.0"}:
+        drop(tree, "speed")
+    faults = left_out(tree, source, *_OF_CLIPS, "speed", "loop", "mode")
+    tree.tag = _CLIP
+    return faults

@@ -1,0 +1,279 @@
+"""SmartBody's requests, elements and attributes, which are read as behaviors of BML 1.0 and its extensions."""
+
+import pytest
+
+from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import FaceFacs, Gaze, Gesture, Head, Locomotion
+from reactive_realizer.bml.block import BehaviorBlock, Parsed
+from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.extensions import Emit, Interrupt, Keyframe
+from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.references import check_references
+from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection
+from reactive_realizer.limits import Limits
+
+TABLE_1 = """vrAgentBML request Alice Bob SPEECH_24
+<?xml version="1.0" encoding="UTF-8"?>
+<act> <bml>
+  <speech id="b1">
+    <text>
+      Wait! That's <tm id="not"> not what I mean.
+    </text>
+  </speech>
+  <sbm:interrupt id="b2" act="SPEECH_23"
+    start="b1:start" />
+  <gaze id="b3" target="Bob" start="b2:start" />
+  <head id="b4" type="SHAKE" stroke="b1:not" />
+</bml> </act>
+"""
+"""The request in table 1 of Thiebaux and others (2008), to the letter."""
+
+
+def read(text: str) -> Parsed:
+    (parsed,) = parse(text, Limits(), "document1")
+    return parsed
+
+
+def block(text: str) -> BehaviorBlock:
+    """The block of a document, which has no problems."""
+    parsed = read(text)
+    assert parsed.block is not None
+    assert parsed.problems == ()
+    assert check_references(parsed.block) == ()
+    return parsed.block
+
+
+def only(inside: str) -> Behavior:
+    """The only behavior of an act, which has no problems."""
+    (behavior,) = block(f"<act><bml>{inside}</bml></act>").behaviors
+    return behavior
+
+
+def told(inside: str) -> list[str]:
+    return [each.fault.sentence for each in read(f"<act><bml>{inside}</bml></act>").problems]
+
+
+def cast(text: str) -> str:
+    return block(text).played_by(["alice", "brad", "rachel"])
+
+
+# --- requests
+
+
+def test_the_words_before_a_request_name_the_block_and_its_character() -> None:
+    for words in ("vrAgentBML request rachel Bob act_7", "vrSpeak rachel ALL act_7"):
+        assert block(f"{words} <act><bml/></act>").id == "act_7"
+        assert cast(f"{words} <act><bml/></act>") == "rachel"
+
+
+def test_the_name_of_a_request_becomes_an_id() -> None:
+    assert block("vrSpeak brad user sb:7+1 <act><bml/></act>").id == "sb_7_1"
+
+
+def test_an_actor_plays_the_blocks_of_an_act_unless_the_words_before_name_another_one() -> None:
+    act = '<act><participant id="brad" role="actor"/><participant id="rachel" role="addressee"/><bml/></act>'
+    assert cast(act) == "brad"
+    assert cast(f"vrSpeak rachel brad r1 {act}") == "rachel"
+    assert cast('<act><participant id="rachel" role="addressee"/><bml/></act>') == "alice"
+
+
+def test_the_first_character_stands_in_for_an_actor_that_the_scene_lacks() -> None:
+    assert cast('<act><participant id="doctor"/><bml/></act>') == "alice"
+
+
+def test_a_block_keeps_its_own_id_and_character_in_a_request() -> None:
+    own = block('vrSpeak brad user r1 <act><bml id="b" characterId="rachel"/></act>')
+    assert (own.id, own.character) == ("b", "rachel")
+
+
+def test_the_request_of_the_paper_is_read_to_the_letter() -> None:
+    speech, interrupt, gaze, head = block(TABLE_1).behaviors
+    assert [point for point in speech.sync_points if point not in ("start", "end")] == ["not"]
+    assert isinstance(interrupt, Interrupt)
+    assert (interrupt.target, str(interrupt.syncs["start"])) == ("SPEECH_23", "b1:start")
+    assert (str(gaze.syncs["start"]), gaze.persistent) == ("b2:start", True)
+    assert str(head.syncs["stroke"]) == "b1:not"
+
+
+def test_places_in_a_request_are_those_of_the_text_as_it_was_sent() -> None:
+    locations = [behavior.location for behavior in block(TABLE_1).behaviors]
+    assert locations == [Location(4, 3), Location(9, 3), Location(11, 3), Location(12, 3)]
+    text = 'vrSpeak a b c <bml><speech><tm id="t"> one</speech><head type="NOD"/></bml>'
+    assert block(text).behaviors[1].location == Location(1, text.index("<head") + 1)
+
+
+def test_marks_with_end_tags_stay_as_they_are() -> None:
+    speech = only('<speech id="s">one <tm id="a"></tm>two <tm id="b"/>three</speech>')
+    assert speech.sync_points == ("start", "a", "b", "end")
+
+
+def test_the_namespace_that_the_virtual_human_toolkit_declares_is_known() -> None:
+    uri = 'xmlns:sbm="http://ict.usc.edu"'
+    assert isinstance(only(f'<sbm:interrupt act="b" {uri}/>'), Interrupt)
+    gaze = only(f'<gaze participant="brad" target="x" sbm:joint-range="EYES" {uri}/>')
+    assert isinstance(gaze, Gaze)
+    assert gaze.influence is Influence.EYES
+
+
+def test_an_event_may_have_the_prefix_or_its_message_as_text() -> None:
+    for event in ('<sbm:event message="done 7" stroke="1"/>', "<event stroke='1'><![CDATA[done 7]]></event>"):
+        emit = only(event)
+        assert isinstance(emit, Emit)
+        assert (emit.event, emit.content, str(emit.syncs["start"])) == ("done", "7", "1")
+
+
+# --- gaze
+
+
+def gaze(attributes: str) -> Gaze:
+    behavior = only(f'<gaze id="g" target="x" {attributes}/>')
+    assert isinstance(behavior, Gaze)
+    return behavior
+
+
+@pytest.mark.parametrize(
+    ("joints", "influence", "still"),
+    [
+        ("EYES", Influence.EYES, []),
+        ("NECK EYES", Influence.HEAD, []),
+        ("EYES CHEST", Influence.SHOULDER, []),
+        ("BACK EYES", Influence.WAIST, []),
+        ("neck", Influence.HEAD, ["head", "eyes"]),
+        ("CHEST BACK", Influence.WAIST, ["neck", "head", "eyes"]),
+    ],
+)
+def test_joints_turn_from_the_lowest_to_the_highest_of_a_range(
+    joints: str, influence: Influence, still: list[str]
+) -> None:
+    read = gaze(f'sbm:joint-range="{joints}"')
+    assert (read.influence, dict(read.parameters)) == (influence, dict.fromkeys(still, "0"))
+
+
+@pytest.mark.parametrize(
+    ("direction", "offset", "angle"),
+    [
+        ('direction="UPLEFT" angle="12"', OffsetDirection.UPLEFT, 12.0),
+        ('direction="DOWN"', OffsetDirection.DOWN, 30.0),
+        ('direction="POLAR 90" angle="5"', OffsetDirection.RIGHT, 5.0),
+        ('direction="POLAR 300" angle="5"', OffsetDirection.UPLEFT, 5.0),
+    ],
+)
+def test_a_direction_is_an_offset_by_an_angle_of_30_degrees_unless_it_says_otherwise(
+    direction: str, offset: OffsetDirection, angle: float
+) -> None:
+    read = gaze(direction)
+    assert (read.offset_direction, read.offset_angle) == (offset, angle)
+
+
+def test_an_angle_without_a_direction_has_no_effect_as_in_smartbody() -> None:
+    assert gaze('angle="40"').offset_angle == 0.0
+
+
+def test_a_time_hint_or_a_fade_is_the_time_of_the_turn() -> None:
+    for name in ("time-hint", "fade-in"):
+        assert str(gaze(f'sbm:{name}="0.8" start="2"').syncs["ready"]) == "g:start+0.8"
+
+
+def test_a_target_may_be_a_joint_of_smartbody_skeletons() -> None:
+    read = only('<gaze target="brad:eyeball_left"/>')
+    assert isinstance(read, Gaze)
+    assert read.target == "brad:l_eyeball_joint"
+
+
+def test_what_a_gaze_cannot_do_is_told_in_one_warning() -> None:
+    (sentence,) = told('<gaze target="x" sbm:roll="10" sbm:joint-speed="400" sbm:handle="h"/>')
+    assert sentence == "sbm:roll, sbm:joint-speed of SmartBody has no effect on <gaze> here"
+
+
+# --- head, face, gestures, clips, walking
+
+
+def test_a_nod_lasts_as_its_velocity_and_its_repeats_say() -> None:
+    head = only('<head id="h" type="NOD" repeats="3" velocity="2" amount="0.2"/>')
+    assert isinstance(head, Head)
+    assert (head.repetition, head.amount, str(head.syncs["end"])) == (3, 0.2, "h:start+0.75")
+    assert only('<head type="NOD" velocity="1"/>').syncs == {}
+
+
+def test_a_tied_end_has_precedence_over_a_velocity() -> None:
+    assert str(only('<head id="h" type="NOD" velocity="2" end="3"/>').syncs["end"]) == "3"
+
+
+def test_the_period_of_a_waggle_gives_its_duration() -> None:
+    assert str(only('<head id="h" type="WAGGLE" sbm:period="0.5"/>').syncs["end"]) == "h:start+1.5"
+
+
+def test_parameters_of_waggles_without_a_counterpart_are_told() -> None:
+    (sentence,) = told('<head type="WAGGLE" sbm:warp="0.5" sbm:accel="1.5" sbm:axis="0"/>')
+    assert sentence == "sbm:warp, sbm:accel of SmartBody has no effect on <head> here"
+
+
+def test_ramps_of_a_face_tie_its_points() -> None:
+    face = only('<face id="f" type="facs" au="1" sbm:rampup="0.2" sbm:rampdown="0.4" sbm:duration="2"/>')
+    assert isinstance(face, FaceFacs)
+    assert {point: str(ref) for point, ref in face.syncs.items()} == {
+        "attackPeak": "f:start+0.2",
+        "relax": "f:end-0.4",
+        "end": "f:start+2",
+    }
+
+
+@pytest.mark.parametrize(
+    ("written", "lexeme"),
+    [
+        ('lexeme="METAPHORIC" type="OBLIGATION"', "CHOP"),
+        ('lexeme="DEICTIC" type="me"', "SELF"),
+        ('lexeme="BEAT" type="RHYTHM"', "BEAT"),
+        ('lexeme="EMBLEM" type="SALUTE"', "SALUTE"),
+    ],
+)
+def test_a_class_of_gestures_with_a_type_is_a_lexeme(written: str, lexeme: str) -> None:
+    gesture = only(f'<gesture {written} mode="LEFT_HAND"/>')
+    assert isinstance(gesture, Gesture)
+    assert (gesture.lexeme, gesture.mode) == (lexeme, Mode.LEFT_HAND)
+
+
+def test_a_hold_of_a_gesture_ties_its_points() -> None:
+    gesture = only('<gesture id="g" lexeme="BEAT" poststroke_hold="1.5"/>')
+    assert str(gesture.syncs["relax"]) == "g:strokeEnd+1.5"
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        '<gesture name="Brad@Chop" lexeme="BEAT"/>',
+        '<animation name="Brad@Chop" priority="5" speed="1"/>',
+        '<sbm:animation name="Brad@Chop"/>',
+        '<blend name="Brad@Chop"/>',
+        '<sbm:states name="Brad@Chop"/>',
+    ],
+)
+def test_what_names_a_clip_plays_it(written: str) -> None:
+    clip = only(written)
+    assert isinstance(clip, Keyframe)
+    assert clip.animation == "Brad@Chop"
+
+
+def test_the_mixture_of_a_blend_is_told() -> None:
+    (sentence,) = told('<blend name="step" x="1" y="0" sbm:wrap-mode="Once"/>')
+    assert sentence == "x, y, sbm:wrap-mode of SmartBody has no effect on <blend> here"
+
+
+def test_a_way_has_a_speed_a_distance_and_a_direction_to_face() -> None:
+    way = only('<locomotion target="1 2" type="basic" manner="jog" speed="2" proximity="0.4" facing="90"/>')
+    assert isinstance(way, Locomotion)
+    assert (way.target, way.manner) == ("1 2", "RUN")
+    assert dict(way.parameters) == {"speed": "2", "distance": "0.4", "facing": "90"}
+
+
+def test_groups_and_priorities_make_no_difference() -> None:
+    assert isinstance(only('<head type="NOD" group="g" priority="3"/>'), Head)
+
+
+def test_a_number_that_is_none_drops_its_behavior() -> None:
+    (sentence,) = told('<head type="NOD" velocity="fast"/>')
+    assert sentence == "velocity='fast' of <head>: not a finite number"
+
+
+def test_an_element_that_is_not_known_stays_for_engines_of_plug_ins() -> None:
+    assert only('<sbm:quickdraw id="q" anim="draw"/>').namespace == "urn:smartbody"
