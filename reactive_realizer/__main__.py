@@ -21,6 +21,7 @@ _COMMANDS = MappingProxyType(
         "translate": "write a document in any dialect as BML 1.0",
         "lexicon": "list the available lexemes with their sync points and parameters",
         "avatar": "say what an avatar file contains",
+        "make-avatar": "make an avatar by age, build, skin, hair and clothes",
         "physics": "write the physical model of a character",
         "conformance": "test a realizer over the protocol",
         "bridge": "connect a realizer with the message bus of another system",
@@ -34,7 +35,7 @@ class _Command(argparse.ArgumentParser):
 
     def parse_known_args(self, args: Sequence[str] | None = None, namespace: Any = None) -> Any:  # type: ignore[override]
         """Parse the arguments after the command."""
-        name = self.prog.rpartition(" ")[2]
+        name = self.prog.rpartition(" ")[2].replace("-", "_")
         import_module(f"reactive_realizer.cli.{name}").add_options(self)
         return super().parse_known_args(args, namespace)
 

