@@ -162,6 +162,10 @@ class Gesture(Behavior):
     mode: Mode | None = field(default=None, metadata=attribute(Enumeration(Mode)))
 
 
+REACH: Final = (OWN, "reach")
+"""The attribute of a pointing whose hand goes to its target; a word of `Reach`."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pointing(Behavior):
     """Points at a target.

@@ -29,6 +29,7 @@ from reactive_realizer.bml.trees import (
     Tree,
     extensions_of,
     is_continuous,
+    is_core,
     is_part,
     name_of,
     names_in,
@@ -276,4 +277,5 @@ def _text_of(tree: Tree, attribute: Attribute, continuous: bool) -> str | None:
 def _behaviors_in(block: Tree) -> Iterator[Tree]:
     """The elements of behaviors, also unreadable ones: a reference to any of them does not name another block."""
     holders = [block, *block.iter("{*}required")]
-    return (child for holder in holders for child in holder if name_of(child) not in {"constraint", "required"})
+    others = ("constraint", "required")
+    return (child for holder in holders for child in holder if not (is_core(child) and name_of(child) in others))

@@ -19,6 +19,17 @@ class Mode(StrEnum):
     BOTH_HANDS = "BOTH_HANDS"
 
 
+class Reach(StrEnum):
+    """What a hand does that goes to the target of a pointing."""
+
+    TOUCH = "TOUCH"
+    """Its fingertips stay at the target."""
+    TAKE = "TAKE"
+    """The target follows the hand from ready on."""
+    PUT = "PUT"
+    """What follows the hand stays at the target, which is a place, from ready on."""
+
+
 class Influence(StrEnum):
     """The part of the body that follows a gaze; each includes the ones before it."""
 

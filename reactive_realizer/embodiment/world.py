@@ -51,17 +51,29 @@ class World:
         self._positions: dict[str, Vec3] = dict(positions)
         self._radii = radii
         self._living: dict[str, Locate] = {}
+        self._carried: dict[str, str] = {}
 
     def add_character(self, character: str, locate: Locate) -> None:
         """Make a character a target."""
         self._living[character] = locate
 
     def move(self, target: str, position: Vec3 | None) -> None:
-        """Move a target; None removes it."""
+        """Move a target; None removes it. It is no longer carried."""
+        self._carried.pop(target, None)
         if position is None:
             self._positions.pop(target, None)
         else:
             self._positions[target] = position
+
+    def carry(self, target: str, joint: str) -> None:
+        """Let a target that is no character follow a joint of one, ``alice:r_wrist``, until it is moved or put down."""
+        if target in self._positions:
+            self._carried[target] = joint
+
+    def put_down(self, joint: str, place: Vec3) -> None:
+        """Leave what follows a joint at a place, m."""
+        for target in [target for target, carrier in self._carried.items() if carrier == joint]:
+            self.move(target, place)
 
     def position(self, target: str, time: GlobalTime | None = None) -> Vec3 | None:
         """Return the position of a target, m; None if it is unknown.
@@ -72,6 +84,7 @@ class World:
             target: its name.
             time: of a frame for which characters have not moved yet, so their positions are extrapolated; None for now.
         """
+        target = self._carried.get(target, target)
         character, _, joint = target.partition(":")
         if character in self._living:
             return self._living[character](joint or None, time)
@@ -87,7 +100,7 @@ class World:
 
     def obstacles(self, character: str) -> Iterator[Obstacle]:
         """Yield where the middle of a character cannot be: at objects with a radius, and at other characters."""
-        middles = {target: self._positions.get(target) for target in self._radii}
+        middles = {target: self.position(target) for target in self._radii}
         middles |= {other: locate(ROOT) for other, locate in self._living.items() if other != character}
         for target, position in middles.items():
             radius = self.radius(target)

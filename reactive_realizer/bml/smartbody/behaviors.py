@@ -20,13 +20,15 @@ from reactive_realizer.bml.smartbody.attributes import (
 )
 from reactive_realizer.bml.smartbody.gaze import adapt_gaze
 from reactive_realizer.bml.smartbody.gestures import adapt_clip, adapt_gesture
+from reactive_realizer.bml.smartbody.reaching import adapt_constraint, adapt_grab, adapt_reach, is_of_hand
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 from reactive_realizer.errors import Fault
 
 _LONGEST: Final = 60.0
 _MOST_VELOCITY: Final = 20.0
-_BEGINNING, _NOD = 0.3, 0.4
-"""Duration of a nod or shake at the velocity 1, and how much of it each of its strokes takes, s."""
+_STROKES: Final = {"SHAKE": (0.2, 0.5), "TOSS": (0.1, 0.6)}
+_NOD: Final = (0.3, 0.4)
+"""Duration of a nod at the velocity 1, s: a constant part, and that of each stroke; above, those of other movements."""
 _WAVES: Final = 3
 """Waves of a wiggle or waggle."""
 _OF_WALKERS: Final = {"speed": "speed", "facing": "facing", "proximity": "distance"}
@@ -38,6 +40,7 @@ _RAMPS: Final = {
     "rampdown": ("relax", "end", -1.0),
 }
 """Times of a face, and the points that they tie: after another one, or before it."""
+_CONSTRAINT: Final = "constraint"
 _WITHOUT_EFFECT: Final = ("group", "priority", "participant")
 """Attributes that make no difference in SmartBody's motion either: they are for its tools and for generators."""
 
@@ -58,7 +61,8 @@ def adapt(tree: Tree, source: BlockSource) -> list[Fault]:
         RealizerError: ``bad-attribute``.
     """
     rewrite = _REWRITES.get(name_of(tree))
-    if rewrite is None and namespace_of(tree) == SBM:
+    other = rewrite is None or (name_of(tree) == _CONSTRAINT and not is_of_hand(tree))
+    if other and namespace_of(tree) == SBM:
         return []
     if namespace_of(tree) == SBM:
         tree.tag = name_of(tree)
@@ -82,7 +86,8 @@ def _head(tree: Tree, source: BlockSource) -> list[Fault]:
     if repeats is not None and "repetition" not in tree.attrib:
         tree.set("repetition", str(strokes))
     if velocity is not None and velocity != 1.0:
-        tie(tree, "end", "start", (_BEGINNING + _NOD * strokes) / velocity)
+        fixed, each = _STROKES.get(tree.get("type", "").upper(), _NOD)
+        tie(tree, "end", "start", (fixed + each * strokes) / velocity)
     if period is not None:
         tie(tree, "end", "start", _WAVES * period * strokes)
     drop(tree, "axis")
@@ -120,6 +125,9 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], list[Fault]]]] = {
     "gaze": adapt_gaze,
     "gesture": adapt_gesture,
     "locomotion": _locomotion,
+    "reach": adapt_reach,
+    "grab": adapt_grab,
+    _CONSTRAINT: adapt_constraint,
     **dict.fromkeys(("animation", "states", "blend"), adapt_clip),
     "speech": _as_it_is,
 }

@@ -157,6 +157,26 @@ class TargetLost(PlayingFault):
     reason: str
 
 
+class NoSuchReach(CreationFault):
+    """An unknown word for what a hand does at the target of a pointing."""
+
+    code = "no-such-reach"
+    template = "reach='{word}' of <pointing>: not one of {known}"
+    unknown = "word"
+    word: str
+    known: tuple[str, ...]
+
+
+class NotTouched(PlayingFault):
+    """A target that a hand cannot touch, or no longer."""
+
+    code = "not-touched"
+    template = "the {hand} hand does not reach '{target}': {reason}"
+    hand: str
+    target: str
+    reason: str
+
+
 class HandLate(PlayingFault):
     """A hand that is not where its gesture wants it at a sync point; ``distance`` is in cm."""
 

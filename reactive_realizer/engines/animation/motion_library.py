@@ -10,7 +10,7 @@ from types import MappingProxyType
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Head
+from reactive_realizer.bml.behaviors import REACH, Head
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates
 from reactive_realizer.engines.animation.faults import NoMotionFor, NoUnit
@@ -38,7 +38,7 @@ from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
 from reactive_realizer.engines.animation.motions.murml import MurmlMaker
 from reactive_realizer.engines.animation.motions.noise import NoiseMaker
-from reactive_realizer.engines.animation.motions.pointing import PointingMaker
+from reactive_realizer.engines.animation.motions.pointing_maker import PointingMaker
 from reactive_realizer.engines.animation.motions.posture import PostureMaker
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionMaker
 from reactive_realizer.engines.animation.motions.sequence_maker import SequenceMaker
@@ -90,7 +90,7 @@ class MotionLibrary:
         extensions: namespaced attributes that motions use.
     """
 
-    extensions = frozenset({DYNAMIC})
+    extensions = frozenset({DYNAMIC, REACH})
 
     def __init__(self, binding: GestureBinding, context: MakerContext) -> None:
         self.binding = binding

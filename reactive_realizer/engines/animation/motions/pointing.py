@@ -2,24 +2,19 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from types import MappingProxyType
 
-from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.bml.expressivity import NAMES, NEUTRAL, Expressivity
-from reactive_realizer.bml.vocabulary import Mode
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.place import Place, between_headings, heading_of
+from reactive_realizer.embodiment.place import Place, between_headings
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, rotate, slerp
 from reactive_realizer.embodiment.vector import UP, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.faults import NoJoints, NotPointable, TargetLost, WrongElement
-from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, TargetLocator, target_locator
-from reactive_realizer.engines.animation.motion_parameters import parameter_values
+from reactive_realizer.engines.animation.faults import NotTouched, TargetLost
+from reactive_realizer.engines.animation.motion_maker import TargetLocator
 from reactive_realizer.engines.animation.motion_unit import (
     EXPRESSIVITY_RANGES,
     Moment,
@@ -36,12 +31,13 @@ from reactive_realizer.engines.animation.motions.reaching import (
     shortest_phases,
     sigmoid_profile,
 )
-from reactive_realizer.engines.animation.walking.manner import stepping_time, turn_of_feet
-from reactive_realizer.errors import Fault, RealizerError
-from reactive_realizer.planunit.parameter import Range, spelled
+from reactive_realizer.engines.animation.motions.touching_arm import TouchingArm
+from reactive_realizer.engines.animation.walking.manner import stepping_time
+from reactive_realizer.errors import Fault
+from reactive_realizer.planunit.parameter import Range
 
-_BEHIND = math.radians(90.0)
-"""Angle aside from which on the feet turn the figure to a target that its arms do not reach, rad."""
+_ALMOST = 0.8
+"""Share of the preparation after which a hand may arrive within a frame."""
 
 _FACED = math.radians(1.0)
 """A smaller turn that is left is done, rad."""
@@ -60,12 +56,19 @@ RANGES: Mapping[str, Range] = MappingProxyType(
 """Valid values of these parameters."""
 
 
+AimedArm = PointingArm | TouchingArm
+Arms = Mapping[str, AimedArm]
+"""Arms by their sides."""
+
+
 class PointingMotionUnit(MotionUnit):
     """Brings the line of one or both index fingers to the target and back.
 
     The hands start from their current pose. From ready to relax the line follows the target, however target and trunk
     move. Hands have a bell-shaped speed profile (`sigmoid`). Retraction takes as long as preparation, as it does for
     people (thesis 4.2.2). If the target leaves the reach of an arm, the arm stays where it came nearest.
+
+    Arms that touch bring their fingertips to the target instead of the line.
 
     If the target is behind the arms, the feet turn the figure meanwhile, and turn it back.
 
@@ -81,12 +84,13 @@ class PointingMotionUnit(MotionUnit):
     def __init__(
         self,
         name: str,
-        arms: Sequence[PointingArm],
+        arms: Sequence[AimedArm],
         target: TargetLocator,
         figure: Callable[[GlobalTime], Body],
         rest: Body,
         parameters: Mapping[str, float] = DEFAULTS,
         facing: "Facing | None" = None,
+        arrived: Callable[[], None] | None = None,
     ) -> None:
         """Plan a pointing gesture.
 
@@ -99,7 +103,9 @@ class PointingMotionUnit(MotionUnit):
             rest: expected body at the start; preferred durations follow from it.
             parameters: a valid value for each of `RANGES`; and of expressivity, 0 for those that are missing.
             facing: the turn of the feet; None if they stay.
+            arrived: is called once, when the hands have arrived; from then on, they stay there until they relax.
         """
+        self._arrived, self._keeps, self._before = arrived, False, 0.0
         self._facing = facing
         self.steps = facing is not None
         self.parameters = {**NEUTRAL.parameters, **parameters}
@@ -152,14 +158,24 @@ class PointingMotionUnit(MotionUnit):
     def pose(self, moment: Moment) -> MotionPose:
         """Return the rotations of arms and fingers; retraction fades to the layers below."""
         keys, phase, expressivity = self.key_positions, moment.phase, self._expressivity()
-        if phase <= keys["relax"] or not self._aimed:
+        if (phase <= keys["relax"] and not self._keeps) or not self._aimed:
             aims = self._aim(self._figure(moment.time), expressivity, moment.time)
             self._aimed = _turns(aims)
             if phase >= keys["ready"]:
                 self.fault = self.fault or self._missed(aims)
         if phase < keys["ready"]:
+            self._before = phase
             return MotionPose(self._prepared(share(phase, 0.0, keys["ready"]), moment.body, expressivity))
+        self._arrive()
         return MotionPose(self._aimed, 1.0 - self._profile(share(phase, keys["relax"], 1.0)))
+
+    def _arrive(self) -> None:
+        """Note that the hands have arrived, if they have; a motion that is broken off on the way jumps to its relax."""
+        broken_off = self._before < _ALMOST * self.key_positions["ready"]
+        if self._arrived is not None and not broken_off and self.fault is None:
+            self._keeps = True
+            self._arrived()
+        self._arrived = None
 
     def _prepared(self, time: float, body: Body, expressivity: Expressivity) -> Mapping[str, Quat]:
         """Return the pose after a share of the time of the preparation."""
@@ -180,7 +196,8 @@ class PointingMotionUnit(MotionUnit):
     def _missed(self, aims: Sequence[ArmPose]) -> Fault | None:
         for arm, aim in zip(self._arms, aims, strict=True):
             if aim.fault is not None:
-                return TargetLost(hand=arm.hand, target=self._name, reason=aim.fault)
+                lost = TargetLost if isinstance(arm, PointingArm) else NotTouched
+                return lost(hand=arm.hand, target=self._name, reason=aim.fault)
         return None
 
 
@@ -215,64 +232,3 @@ class Facing:
 
 def _turns(aims: Sequence[ArmPose]) -> dict[str, Quat]:
     return {joint: rotation for aim in aims for joint, rotation in aim.rotations.items()}
-
-
-_SIDES: Mapping[str, str] = {Mode.LEFT_HAND: "l", Mode.RIGHT_HAND: "r", Mode.BOTH_HANDS: "lr"}
-
-
-class PointingMaker:
-    """Makes pointing gestures at targets of the world.
-
-    The behavior's mode chooses the hand, or the binding's parameter ``hand`` with the same values, or the position
-    of the target: the hand on that side if it can point there, otherwise the other one.
-    """
-
-    def __init__(self, context: MakerContext) -> None:
-        self._context = context
-        self._arm = {side: PointingArm(context.humanoid.avatar.skeleton, side) for side in SIDES}
-
-    def __call__(self, request: MotionRequest) -> PointingMotionUnit:
-        """Make a pointing gesture."""
-        behavior = request.behavior
-        if not isinstance(behavior, Pointing):
-            raise RealizerError(WrongElement(unit="pointing", element=behavior.name))
-        target = target_locator(self._context, behavior.target, follow=True)
-        sides = _SIDES.get(behavior.mode or spelled(request.parameters.get(HAND, ""), _SIDES))
-        humanoid, rest = self._context.humanoid, self._context.rest.body
-        facing = self._facing(target, sides)
-        seen = target if facing is None else lambda time=None: facing.turned(target(time))
-        arms = self._arms(sides, behavior, seen) if sides else self._free(behavior, seen)
-        given = parameter_values(request.parameters, {**RANGES, **EXPRESSIVITY_RANGES})
-        parameters = {**DEFAULTS, **self._context.expressivity.parameters, **given}
-        return PointingMotionUnit(behavior.target, arms, target, humanoid.expected, rest, parameters, facing)
-
-    def _facing(self, target: TargetLocator, sides: str | None) -> Facing | None:
-        """Return the turn of the feet toward a target that is behind the arms that have to point; None if they stay."""
-        context, arms = self._context, [self._arm[side] for side in sides or SIDES]
-        if not context.can_step or any(arm.missing for arm in arms):
-            return None
-        reached = [arm.aim(context.rest.body, target()).fault is None for arm in arms]
-        x, _, z = target()
-        if (all(reached) if sides else any(reached)) or abs(bearing := heading_of(x, z)) < _BEHIND:
-            return None
-        return Facing(lambda: context.humanoid.place, turn_of_feet(bearing))
-
-    def _free(self, behavior: Pointing, target: TargetLocator) -> Sequence[PointingArm]:
-        """Return the arm on the side of the target, or the other one if that one cannot point there."""
-        first, second = "lr" if target()[0] > 0.0 else "rl"
-        try:
-            return self._arms(first, behavior, target)
-        except RealizerError as fault:
-            with suppress(RealizerError):
-                return self._arms(second, behavior, target)
-            raise fault
-
-    def _arms(self, sides: str, behavior: Pointing, target: TargetLocator) -> Sequence[PointingArm]:
-        """Return arms that can point at a target."""
-        body, arms = self._context.rest.body, [self._arm[side] for side in sides]
-        if missing := [joint for arm in arms for joint in arm.missing]:
-            raise RealizerError(NoJoints(element=behavior.name, joints=tuple(missing)))
-        for arm in arms:
-            if (fault := arm.aim(body, target()).fault) is not None:
-                raise RealizerError(NotPointable(target=behavior.target, hand=arm.hand, reason=fault))
-        return arms

@@ -115,6 +115,11 @@ class ArmPose(NamedTuple):
     fault: str | None
 
 
+def hand_of(side: str) -> str:
+    """Return the name of the hand of a side, "l" or "r", for messages."""
+    return {"l": "left", "r": "right"}[side]
+
+
 @dataclass(frozen=True)
 class PointingArm:
     """An arm of a skeleton, for pointing.
@@ -130,7 +135,7 @@ class PointingArm:
     @property
     def hand(self) -> str:
         """Name of the hand, for messages."""
-        return {"l": "left", "r": "right"}[self.side]
+        return hand_of(self.side)
 
     @property
     def missing(self) -> list[str]:

@@ -1,0 +1,98 @@
+"""Hands of SmartBody that go to a target: reaches, grabs, and constraints of a hand."""
+
+from typing import Final
+
+from reactive_realizer.bml.behaviors import REACH
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.smartbody.attributes import (
+    drop,
+    left_out,
+    rename,
+    set_parameter,
+    take,
+    take_number,
+    tie,
+)
+from reactive_realizer.bml.smartbody.gaze import named_joint
+from reactive_realizer.bml.trees import Tree
+from reactive_realizer.bml.vocabulary import Mode, Reach
+from reactive_realizer.errors import Fault
+
+_ACTIONS: Final = {"touch": Reach.TOUCH, "pick-up": Reach.TAKE, "put-down": Reach.PUT}
+_POINTS: Final = "point-at"
+_HANDS: Final = {"left": Mode.LEFT_HAND, "l": Mode.LEFT_HAND, "right": Mode.RIGHT_HAND, "r": Mode.RIGHT_HAND}
+_HOLD: Final = "postStrokeHoldDuration"
+_LONGEST: Final = 600.0
+_MOMENT: Final = "0.1"
+"""Duration of a behavior that does nothing, s."""
+_OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax", "stroke_start", "stroke_end")
+
+
+def adapt_reach(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a reach, in place, and returns the faults of what is left out.
+
+    A hand comes back by itself, so a reach that only ends another one does nothing.
+    """
+    rename(tree, "target-pos", "target")
+    action = take(tree, "action").lower()
+    finishes = take(tree, "reach-finish").lower() == "true"
+    drop(tree, "handle", "foot-ik")
+    if finishes or "target" not in tree.attrib:
+        return _nothing(tree, source)
+    hold = take_number(tree, "reach-duration", source, -1.0, _LONGEST)
+    if hold is not None and hold >= 0.0:
+        set_parameter(tree, _HOLD, f"{hold:g}", source)
+    _choose_hand(tree, take(tree, "reach-type") or take(tree, "reach-arm"))
+    return _go(tree, "" if action == _POINTS else _ACTIONS.get(action, Reach.TOUCH), source)
+
+
+def adapt_grab(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a grab, in place: the hand takes its target, if it has one."""
+    drop(tree, "handle", "grab-state")
+    if "target" not in tree.attrib:
+        return _nothing(tree, source)
+    _choose_hand(tree, take(tree, "grab-type"))
+    return _go(tree, Reach.TAKE, source)
+
+
+def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a constraint of the place of a hand, in place."""
+    drop(tree, "handle", "effector-root", "root", "constraint-type")
+    _choose_hand(tree, take(tree, "effector").partition("_")[0])
+    for name, point, other, sign in (("fade-in", "ready", "start", 1.0), ("fade-out", "relax", "end", -1.0)):
+        seconds = take_number(tree, name, source, 0.0, _LONGEST)
+        if seconds:
+            tie(tree, point, other, sign * seconds)
+    if {"relax", "end"} & set(tree.keys()):
+        tree.set("start", tree.get("start", "0"))  # the hand stays at its target meanwhile
+    return _go(tree, Reach.TOUCH, source)
+
+
+def is_of_hand(constraint: Tree) -> bool:
+    """Whether a constraint of SmartBody is one of the place of a hand."""
+    side, _, joint = constraint.get("effector", "").partition("_")
+    kind = constraint.get("{urn:smartbody}constraint-type", "pos")
+    return side in _HANDS and joint.startswith(("wrist", "hand", "index", "middle")) and kind.lower() == "pos"
+
+
+def _choose_hand(tree: Tree, side: str) -> None:
+    hand = _HANDS.get(side.lower())
+    if hand is not None:
+        tree.set("mode", hand)
+
+
+def _go(tree: Tree, action: str, source: BlockSource) -> list[Fault]:
+    tree.set("target", named_joint(tree.get("target", "")))
+    faults = left_out(tree, source, *"xyz")
+    tree.tag = "pointing"
+    if action:
+        tree.set(f"{{{REACH[0]}}}{REACH[1]}", action)
+    return faults
+
+
+def _nothing(tree: Tree, source: BlockSource) -> list[Fault]:
+    faults = left_out(tree, source)
+    drop(tree, "target", *_OTHER_POINTS)
+    tree.tag = "wait"
+    tree.set("duration", _MOMENT)
+    return faults

@@ -1,0 +1,86 @@
+"""An arm whose fingertips go to a target."""
+
+from dataclasses import dataclass
+from functools import cached_property, reduce
+
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, rotate
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, SolvedArm
+from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, hand_of
+
+_NEEDED = ("shoulder", "elbow", "wrist")
+_FINGERS = ("index", "middle", "ring", "pinky")
+_MIDDLE_FINGER = ("middle1", "middle2", "middle3")
+_ROUNDS, _DAMPING = 6, 0.6
+_NEAR = 0.02
+"""Distance up to which a target is touched, m."""
+
+
+@dataclass(frozen=True)
+class TouchingArm:
+    """An arm of a skeleton, for touching; the hand stays as straight as it is at rest.
+
+    Attributes:
+        skeleton: with the proportions of the figure.
+        side: "l" or "r".
+    """
+
+    skeleton: Skeleton
+    side: str
+
+    @property
+    def hand(self) -> str:
+        """Name of the hand, for messages."""
+        return hand_of(self.side)
+
+    @property
+    def missing(self) -> list[str]:
+        """Joints needed for touching that the skeleton lacks; if there are any, other members must not be used."""
+        return [joint for name in _NEEDED if (joint := f"{self.side}_{name}") not in self.skeleton]
+
+    @property
+    def holder(self) -> str:
+        """The joint that what it carries follows: the one nearest to the fingertips."""
+        names = (f"{self.side}_{name}" for name in reversed(("wrist", *_MIDDLE_FINGER)))
+        return next(joint for joint in names if joint in self.skeleton)
+
+    @cached_property
+    def joints(self) -> frozenset[str]:
+        """The joints that touching turns."""
+        return frozenset((*(f"{self.side}_{name}" for name in _NEEDED), *self._fingers))
+
+    def aim(self, body: Body, target: Vec3, extent: float = 0.0) -> ArmPose:
+        """Bring the fingertips to a target, or as near as possible.
+
+        Args:
+            body: with the current trunk.
+            target: in the figure's frame, m.
+            extent: has no effect, because the place of the hand is given.
+        """
+        goal, hand = subtract(target, body.transform(body.skeleton.joints[0]).position), ZERO
+        solved = self._with_wrist_at(goal, body)
+        for _ in range(_ROUNDS):  # how the hand turns depends on where the wrist is
+            wrist = body.posed(solved.rotations).transform(f"{self.side}_wrist")
+            turned = subtract(rotate(wrist.rotation, self._tip), hand)
+            hand = add(hand, scale(turned, _DAMPING))
+            solved = self._with_wrist_at(subtract(goal, hand), body)
+        fault = f"it is {solved.missing:.2f} m too far away" if solved.missing > _NEAR else None
+        return ArmPose({**solved.rotations, **self._fingers}, fault)
+
+    def _with_wrist_at(self, place: Vec3, body: Body) -> SolvedArm:
+        return ArmGoals(self.side, place).solve(body, IDENTITY)
+
+    @cached_property
+    def _fingers(self) -> dict[str, Quat]:
+        """The rotations of the fingers of a flat hand: those of the default pose."""
+        names = (f"{self.side}_{finger}{number}" for finger in _FINGERS for number in (1, 2, 3))
+        return {joint: IDENTITY for joint in names if joint in self.skeleton}
+
+    @cached_property
+    def _tip(self) -> Vec3:
+        """From the wrist to the tip of the stretched middle finger, m; the last bone counts twice, up to its end."""
+        bones = [
+            self.skeleton.offset(joint) for name in _MIDDLE_FINGER if (joint := f"{self.side}_{name}") in self.skeleton
+        ]
+        return reduce(add, [*bones, *bones[-1:]], ZERO)

@@ -1,0 +1,136 @@
+"""Hands that touch, take and put down targets, from BML to frames."""
+
+from collections.abc import AsyncIterator
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from reactive_realizer.bml.names import OWN
+from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.testing.pilot import RealizerPilot
+
+from .conftest import OpenStill
+
+NEAR = 0.01
+BOX = (-0.2, 1.15, 0.4)
+HIGH = (-0.3, 1.4, 0.35)
+
+
+@pytest.fixture(params=["female", "male"])
+async def pilot(request: pytest.FixtureRequest, open_still: OpenStill) -> AsyncIterator[RealizerPilot]:
+    async with open_still(avatar=request.param) as pilot:
+        pilot.move("box", BOX)
+        yield pilot
+
+
+def reach(action: str, attributes: str = "", target: str = "box") -> str:
+    return f'<pointing xmlns:rr="{OWN}" id="p" target="{target}" rr:reach="{action}" {attributes}/>'
+
+
+def gaps(pilot: RealizerPilot, side: str, target: Vec3, first: float, last: float) -> npt.NDArray[np.float64]:
+    """Distances of the tip of a middle finger from a target in the frames between two times, m."""
+    times = [frame.time for frame in pilot.frames["alice"]]
+    shown = [body for time, body in zip(times, pilot.bodies(), strict=True) if first <= time <= last]
+    joints = [[np.array(body.transform(f"{side}_middle{i}").position) for i in (2, 3)] for body in shown]
+    return np.array([np.linalg.norm(2.0 * outer - inner - target) for inner, outer in joints])
+
+
+def box(pilot: RealizerPilot) -> Vec3:
+    position = pilot.realizer.world.position("box")
+    assert position is not None
+    return position
+
+
+def holder(pilot: RealizerPilot) -> Vec3:
+    return pilot.bodies()[-1].transform("r_middle3").position
+
+
+async def test_the_fingertips_of_the_nearer_hand_stay_at_the_target(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("touch", 'ready="1" relax="2"'))
+    await pilot.advance(3)
+    assert gaps(pilot, "r", BOX, 1.0, 2.0).max() < NEAR
+    assert gaps(pilot, "l", BOX, 0.0, 3.0).min() > 0.3
+    assert pilot.feedback.warnings == []
+
+
+async def test_the_mode_chooses_the_hand(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("TOUCH", 'mode="LEFT_HAND" ready="1" relax="2"', "0.1 1.2 0.35"))
+    await pilot.advance(2)
+    assert gaps(pilot, "l", (0.1, 1.2, 0.35), 1.0, 2.0).max() < NEAR
+
+
+async def test_they_follow_a_target_that_moves(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("touch", 'ready="1" relax="3"'))
+    for step in range(100):
+        share = max(0.0, min(1.0, (step - 60) / 30))
+        pilot.move("box", (BOX[0] - 0.1 * share, BOX[1] + 0.1 * share, BOX[2]))
+        await pilot.advance(0.03)
+    assert gaps(pilot, "r", box(pilot), 2.8, 3.0).max() < NEAR
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_hand_goes_as_near_as_it_can_and_a_warning_says_how_far_the_target_is(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("touch", 'mode="RIGHT_HAND" ready="1" relax="2"', "-0.2 1.3 1.6"))
+    await pilot.advance(3)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert "the right hand does not reach '-0.2 1.3 1.6': it is" in warning.text
+    near = gaps(pilot, "r", (-0.2, 1.3, 1.6), 1.2, 2.0)
+    assert near.max() < gaps(pilot, "r", (-0.2, 1.3, 1.6), 0.0, 0.1).min() - 0.3
+
+
+async def test_a_target_that_is_taken_follows_the_hand_when_it_has_arrived(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("take", 'ready="1" relax="1.4" end="2.5"'))
+    await pilot.advance(0.95)
+    assert box(pilot) == BOX
+    await pilot.advance(0.3)
+    assert np.linalg.norm(np.subtract(box(pilot), BOX)) < 0.05
+    await pilot.advance(2)
+    assert np.linalg.norm(np.subtract(box(pilot), holder(pilot))) < NEAR
+    assert box(pilot)[1] < BOX[1] - 0.2
+    assert pilot.feedback.warnings == []
+
+
+async def test_what_a_hand_carries_stays_where_it_is_put(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("take", 'mode="RIGHT_HAND"'))
+    pilot.block("c", reach("put", 'mode="RIGHT_HAND"', "-0.3 1.2 0.3"), composition="APPEND")
+    await pilot.advance(8)
+    assert pilot.feedback.status("c") == "DONE"
+    assert box(pilot) == (-0.3, 1.2, 0.3)
+
+
+async def test_a_reach_that_is_interrupted_on_its_way_takes_nothing(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("take", 'ready="1"'))
+    await pilot.advance(0.8)
+    pilot.block("c", composition="REPLACE")
+    await pilot.advance(2)
+    assert box(pilot) == BOX
+
+
+async def test_a_hand_that_does_not_reach_its_target_takes_nothing(pilot: RealizerPilot) -> None:
+    pilot.move("box", (0.0, 1.2, 2.0))
+    pilot.block("b", reach("take"))
+    await pilot.advance(4)
+    assert box(pilot) == (0.0, 1.2, 2.0)
+
+
+async def test_a_client_that_moves_a_target_takes_it_out_of_the_hand(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("take"))
+    await pilot.advance(4)
+    pilot.move("box", HIGH)
+    await pilot.advance(1)
+    assert box(pilot) == HIGH
+
+
+async def test_eyes_follow_what_a_hand_carries(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("take") + '<gaze id="g" target="box" start="p:end" end="p:end+2"/>')
+    await pilot.advance(5)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.status("b") == "DONE"
+
+
+async def test_an_unknown_word_drops_the_behavior(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("throw"))
+    await pilot.advance(0.5)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert "reach='throw' of <pointing>: not one of TOUCH, TAKE, PUT" in warning.text
