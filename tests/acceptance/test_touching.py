@@ -99,6 +99,17 @@ async def test_what_a_hand_carries_stays_where_it_is_put(pilot: RealizerPilot) -
     assert box(pilot) == (-0.3, 1.2, 0.3)
 
 
+async def test_it_may_be_taken_and_put_down_in_one_block_after_a_walk(pilot: RealizerPilot) -> None:
+    pilot.move("box", (0.0, 1.1, 1.5))
+    take = reach("take", 'mode="RIGHT_HAND" start="w:end"')
+    put = reach("put", 'mode="RIGHT_HAND" start="p:end"', "0.1 1 1.4").replace('id="p"', 'id="q"')
+    walk = '<locomotion id="w" target="box"><bmlt:parameter name="distance" value="0.4"/></locomotion>'
+    pilot.block("b", walk + take + put)
+    await pilot.advance(9)
+    assert pilot.feedback.warnings == []
+    assert box(pilot) == (0.1, 1.0, 1.4)
+
+
 async def test_a_reach_that_is_interrupted_on_its_way_takes_nothing(pilot: RealizerPilot) -> None:
     pilot.block("b", reach("take", 'ready="1"'))
     await pilot.advance(0.8)

@@ -105,7 +105,8 @@ class PointingMotionUnit(MotionUnit):
             facing: the turn of the feet; None if they stay.
             arrived: is called once, when the hands have arrived; from then on, they stay there until they relax.
         """
-        self._arrived, self._keeps, self._before = arrived, False, 0.0
+        self._arrived, self._keeps = arrived, False
+        self._plays, self._before = False, 0.0
         self._facing = facing
         self.steps = facing is not None
         self.parameters = {**NEUTRAL.parameters, **parameters}
@@ -151,6 +152,7 @@ class PointingMotionUnit(MotionUnit):
 
     def start(self, body: Body) -> None:
         """Start from the current pose of the arms."""
+        self._plays = True
         self._begin = {joint: body.rotation(joint) for joint in self.joints}
         if self._facing is not None:
             self._facing.start()
@@ -161,12 +163,13 @@ class PointingMotionUnit(MotionUnit):
         if (phase <= keys["relax"] and not self._keeps) or not self._aimed:
             aims = self._aim(self._figure(moment.time), expressivity, moment.time)
             self._aimed = _turns(aims)
-            if phase >= keys["ready"]:
+            if phase >= keys["ready"] and self._plays:
                 self.fault = self.fault or self._missed(aims)
         if phase < keys["ready"]:
             self._before = phase
             return MotionPose(self._prepared(share(phase, 0.0, keys["ready"]), moment.body, expressivity))
-        self._arrive()
+        if self._plays:  # before, a pose is what the next motion is planned from
+            self._arrive()
         return MotionPose(self._aimed, 1.0 - self._profile(share(phase, keys["relax"], 1.0)))
 
     def _arrive(self) -> None:
