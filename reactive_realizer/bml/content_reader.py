@@ -10,7 +10,7 @@ from reactive_realizer.bml.behaviors import Gaze, Posture
 from reactive_realizer.bml.block import Constraint, Order, OrderKind, Problem, Synchronize
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.drafts import modernize
-from reactive_realizer.bml.extensions import Controller
+from reactive_realizer.bml.extensions import Controller, Noise
 from reactive_realizer.bml.faults import DuplicateId, LipsLeftOut, MissingElement, MoreProblems, TooManyBehaviors
 from reactive_realizer.bml.smartbody.behaviors import adapt, is_of_smartbody
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -97,7 +97,7 @@ class ContentReader:
         return [child for child in children if child[0] not in lips]
 
     def _persistent(self) -> list[Behavior]:
-        """The persistent behaviors: controllers, gazes and postures of drafts, if nothing is tied to their end.
+        """The persistent behaviors: controllers; gazes, postures, noise of drafts; if nothing is tied to their end.
 
         Thesis 6.3 and C.4.
         """
@@ -107,8 +107,8 @@ class ContentReader:
         return [each for each in may if each.id not in ended and not _ENDING & set(each.syncs)]
 
     def _is_draft_pose(self, behavior: Behavior) -> bool:
-        """Whether a behavior is a gaze or a posture, but no shift, of a draft."""
-        return behavior.id in self._drafts and type(behavior) in (Gaze, Posture)
+        """Whether a behavior is a gaze, a posture or noise, but no shift, of a draft."""
+        return behavior.id in self._drafts and type(behavior) in (Gaze, Posture, Noise)
 
     def report(self, faults: list[Fault], part: str | None = None) -> None:
         """Adds problems of the block, or of the behavior or constraint with an id."""

@@ -32,6 +32,7 @@ from reactive_realizer.bml.faults import (
     TooManyRoots,
 )
 from reactive_realizer.bml.names import BLOCK, CONTINUOUS
+from reactive_realizer.bml.smartbody.blocks import regroup
 from reactive_realizer.bml.smartbody.requests import Request
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS, SyncRef
 from reactive_realizer.bml.trees import Tree, extensions_of, is_continuous, is_core, name_of
@@ -122,6 +123,8 @@ class _BlockReader:
         if not self._tree.get("id", "").strip():
             raise RealizerError(self._source.located(self._tree, NoBlockId()))
         self._id = self._value(_ID)
+        if self._source.ids.draft:
+            regroup(self._tree, self._source)
         content = ContentReader(self._source, self._id)
         content.report(list(self._notes))
         attributes = self._attributes(content, [_ID.name], _SYNCS)

@@ -77,5 +77,5 @@ def test_after_an_error_in_a_wrapper_the_next_document_is_read() -> None:
 def test_the_prefix_of_smartbody_needs_no_declaration() -> None:
     (parsed,) = read('<bml id="b"><gaze target="x" sbm:handle="h"/><sbm:reach target="x"/></bml>')
     assert parsed.block is not None
-    assert [behavior.name for behavior in parsed.block.behaviors] == ["gaze", "reach"]
+    assert [behavior.name for behavior in parsed.block.behaviors] == ["gaze", "pointing"]
     assert parsed.problems == ()

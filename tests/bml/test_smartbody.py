@@ -3,13 +3,13 @@
 import pytest
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import REACH, FaceFacs, Gaze, Gesture, Head, Locomotion, Pointing, Wait
+from reactive_realizer.bml.behaviors import REACH, Face, FaceFacs, Gaze, Gesture, Head, Locomotion, Pointing, Wait
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.extensions import Emit, Interrupt, Keyframe
+from reactive_realizer.bml.extensions import Emit, Interrupt, Keyframe, Noise
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.references import check_references
-from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection
+from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection, Side
 from reactive_realizer.limits import Limits
 
 TABLE_1 = """vrAgentBML request Alice Bob SPEECH_24
@@ -316,6 +316,77 @@ def test_a_constraint_of_a_wrist_touches_its_target_with_that_hand() -> None:
 
 def test_a_constraint_of_a_foot_stays_for_engines_of_plug_ins() -> None:
     assert only('<sbm:constraint effector="l_forefoot" target="box"/>').namespace == "urn:smartbody"
+
+
+# --- several behaviors for one, and one for several
+
+
+def behaviors(inside: str) -> tuple[Behavior, ...]:
+    return block(f"<act><bml>{inside}</bml></act>").behaviors
+
+
+def test_action_units_with_the_same_times_are_one_face() -> None:
+    units = '<face type="facs" au="1_left" amount="1" start="1" priority="2"/>\n<face type="facs" au="10" start="1"/>'
+    (face, other) = behaviors(units + '<face type="facs" au="26" amount="0.2" start="2"/>')
+    assert isinstance(face, Face)
+    assert (face.amount, str(face.syncs["start"])) == (1.0, "1")
+    parts = [(part.au, part.side, part.amount) for part in face.parts if isinstance(part, FaceFacs)]
+    assert parts == [(1, Side.LEFT, 1.0), (10, Side.BOTH, 0.5)]
+    assert isinstance(other, FaceFacs)
+
+
+def test_action_units_with_ids_stay_apart() -> None:
+    units = behaviors('<face id="a" type="facs" au="1"/><face id="b" type="facs" au="2"/>')
+    assert [unit.id for unit in units] == ["a", "b"]
+
+
+def test_noise_turns_each_of_its_joints_and_persists() -> None:
+    noises = behaviors('<sbm:noise id="n" sbm:joint-range="l_shoulder spine3" sbm:scale="0.1" sbm:frequency="0.5"/>')
+    assert [(each.joint, each.persistent) for each in noises if isinstance(each, Noise)] == [
+        ("l_shoulder", True),
+        ("vt6", True),
+    ]
+    assert noises[0].id == "n"
+    assert noises[1].parameters == {
+        **{f"baseamplitude{axis}": "0.1" for axis in "xyz"},
+        **{f"basefreq{axis}": "0.5" for axis in "xyz"},
+    }
+
+
+def test_noise_with_an_end_ends() -> None:
+    (noise,) = behaviors('<sbm:noise sbm:joint-range="l_elbow" end="3"/>')
+    assert not noise.persistent
+    assert noise.parameters["baseamplitudex"] == "0.02"
+
+
+def test_noise_that_is_switched_off_is_told() -> None:
+    assert told('<sbm:noise sbm:joint-range="l_elbow" enable="false"/>')[0].startswith("enable of SmartBody")
+
+
+def test_joints_of_a_gesture_have_noise_while_it_holds() -> None:
+    noise_of = 'sbm:joint-range="l_shoulder l_elbow" sbm:scale="0.04"'
+    gesture, *noises = behaviors(f'<gesture id="g" lexeme="BEAT" relax="5" {noise_of}/>')
+    assert isinstance(gesture, Gesture)
+    assert sorted(each.joint for each in noises if isinstance(each, Noise)) == ["l_elbow", "l_shoulder"]
+    for noise in noises:
+        assert {point: str(ref) for point, ref in noise.syncs.items()} == {"start": "g:strokeEnd", "end": "g:relax"}
+    assert len(behaviors(f'<gesture lexeme="BEAT" {noise_of}/>')) == 1
+
+
+def test_a_reach_may_walk_to_its_target_first() -> None:
+    reach, walk = sorted(
+        behaviors('<sbm:reach target="box" sbm:use-locomotion="true" start="2"/>'),
+        key=lambda each: -len(each.sync_points),
+    )
+    assert isinstance(walk, Locomotion)
+    assert (walk.target, str(walk.syncs["start"]), dict(walk.parameters)) == ("box", "2", {"distance": "0.4"})
+    assert isinstance(reach, Pointing)
+    assert str(reach.syncs["start"]) == f"{walk.id}:end"
+
+
+def test_a_gesture_with_its_stroke_at_0_starts_as_early_as_possible() -> None:
+    assert list(only('<gesture lexeme="BEAT" stroke="0" relax="2"/>').syncs) == ["relax"]
+    assert list(only('<gesture lexeme="BEAT" stroke="0" start="0"/>').syncs) == ["stroke", "start"]
 
 
 def test_groups_and_priorities_make_no_difference() -> None:

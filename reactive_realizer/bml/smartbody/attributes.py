@@ -13,6 +13,8 @@ from reactive_realizer.bml.names import BMLT, SBM
 from reactive_realizer.bml.trees import PARAMETER, Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError
 
+WITHOUT_EFFECT: Final = ("group", "priority", "participant")
+"""Attributes that make no difference in SmartBody's motion either: they are for its tools and for generators."""
 _PREFIX: Final = f"{{{SBM}}}"
 
 

@@ -10,6 +10,7 @@ from reactive_realizer.bml.behaviors import MOST_REPETITIONS
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.names import BMLA, SBM
 from reactive_realizer.bml.smartbody.attributes import (
+    WITHOUT_EFFECT,
     drop,
     left_out,
     rename,
@@ -20,6 +21,7 @@ from reactive_realizer.bml.smartbody.attributes import (
 )
 from reactive_realizer.bml.smartbody.gaze import adapt_gaze
 from reactive_realizer.bml.smartbody.gestures import adapt_clip, adapt_gesture
+from reactive_realizer.bml.smartbody.noise import adapt_noise
 from reactive_realizer.bml.smartbody.reaching import adapt_constraint, adapt_grab, adapt_reach, is_of_hand
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 from reactive_realizer.errors import Fault
@@ -41,8 +43,6 @@ _RAMPS: Final = {
 }
 """Times of a face, and the points that they tie: after another one, or before it."""
 _CONSTRAINT: Final = "constraint"
-_WITHOUT_EFFECT: Final = ("group", "priority", "participant")
-"""Attributes that make no difference in SmartBody's motion either: they are for its tools and for generators."""
 
 
 def is_of_smartbody(tree: Tree) -> bool:
@@ -66,7 +66,7 @@ def adapt(tree: Tree, source: BlockSource) -> list[Fault]:
         return []
     if namespace_of(tree) == SBM:
         tree.tag = name_of(tree)
-    drop(tree, *_WITHOUT_EFFECT)
+    drop(tree, *WITHOUT_EFFECT)
     faults = rewrite(tree, source) if rewrite is not None else []
     return [*faults, *left_out(tree, source)]
 
@@ -127,6 +127,7 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], list[Fault]]]] = {
     "locomotion": _locomotion,
     "reach": adapt_reach,
     "grab": adapt_grab,
+    "noise": adapt_noise,
     _CONSTRAINT: adapt_constraint,
     **dict.fromkeys(("animation", "states", "blend"), adapt_clip),
     "speech": _as_it_is,

@@ -13,6 +13,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     take_number,
     tie,
 )
+from reactive_realizer.bml.smartbody.joints import target_named
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.vocabulary import Influence, OffsetDirection
 from reactive_realizer.errors import Fault
@@ -53,8 +54,6 @@ _AROUND: Final = (
 _POLAR: Final = re.compile(r"POLAR\s+([-+]?[0-9.]+)", re.IGNORECASE)
 _USUAL_ANGLE: Final = "30"
 _LONGEST: Final = 60.0
-_JOINTS: Final = {"base": "HumanoidRoot", "eyeball_left": "l_eyeball_joint", "eyeball_right": "r_eyeball_joint"}
-"""Names of joints in SmartBody's skeletons that differ from those of H-Anim."""
 
 
 def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
@@ -66,18 +65,12 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
     _offset(tree)
     rename(tree, "target-pos", "target")
     if "target" in tree.attrib:
-        tree.set("target", named_joint(tree.get("target", "")))
+        tree.set("target", target_named(tree.get("target", "")))
     for name in ("time-hint", "fade-in"):
         if time := take_number(tree, name, source, 0.0, _LONGEST):
             tie(tree, "ready", "start", time)
     drop(tree, "handle")
     return left_out(tree, source)
-
-
-def named_joint(target: str) -> str:
-    """A target whose joint, if it names one, has the name of H-Anim."""
-    owner, separator, joint = target.partition(":")
-    return f"{owner}:{_JOINTS.get(joint, joint)}" if separator else target
 
 
 def _choose_joints(tree: Tree, source: BlockSource) -> None:

@@ -43,12 +43,14 @@ _OF_CLIPS: Final = (
     "z",
 )
 """Attributes for the choice, the combination and the mixture of clips."""
+_EARLY_POINTS: Final = ("ready", "stroke_start", "strokeStart", "stroke")
 _HOLDS: Final = {"prestroke_hold": ("ready", "strokeStart"), "poststroke_hold": ("strokeEnd", "relax")}
 _LONGEST_HOLD: Final = 60.0
 
 
 def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a gesture, in place, and returns the faults of what is left out."""
+    _start_as_early_as_possible(tree)
     faults = left_out(tree, source, *_OF_CLIPS)
     if "name" in tree.attrib:
         drop(tree, "lexeme", "type", "mode")
@@ -66,8 +68,17 @@ def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
 
 def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites an animation, a state or a blend, in place: the clip of its name is played as it is."""
+    _start_as_early_as_possible(tree)
     if tree.get("speed", "1") in {"1", "1.0"}:
         drop(tree, "speed")
     faults = left_out(tree, source, *_OF_CLIPS, "speed", "loop", "mode")
     tree.tag = _CLIP
     return faults
+
+
+def _start_as_early_as_possible(tree: Tree) -> None:
+    """Unties points at 0 behind a start that is not tied: SmartBody shifts such a block until it starts at 0."""
+    if "start" not in tree.attrib:
+        for point in _EARLY_POINTS:
+            if tree.get(point, "").strip() in {"0", "0.0"}:
+                del tree.attrib[point]

@@ -13,7 +13,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     take_number,
     tie,
 )
-from reactive_realizer.bml.smartbody.gaze import named_joint
+from reactive_realizer.bml.smartbody.joints import target_named
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.vocabulary import Mode, Reach
 from reactive_realizer.errors import Fault
@@ -82,7 +82,7 @@ def _choose_hand(tree: Tree, side: str) -> None:
 
 
 def _go(tree: Tree, action: str, source: BlockSource) -> list[Fault]:
-    tree.set("target", named_joint(tree.get("target", "")))
+    tree.set("target", target_named(tree.get("target", "")))
     faults = left_out(tree, source, *"xyz")
     tree.tag = "pointing"
     if action:

@@ -1,0 +1,111 @@
+"""Behaviors of SmartBody that are several here, or one together, in a block before its behaviors are read."""
+
+from collections.abc import Callable, Iterator
+from itertools import groupby
+from typing import Final
+
+from lxml import etree
+
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.names import SBM
+from reactive_realizer.bml.smartbody.attributes import WITHOUT_EFFECT, drop, set_parameter, take
+from reactive_realizer.bml.trees import Tree, name_of, namespace_of
+
+_JOINTS: Final = "joint-range"
+_WITHIN_REACH: Final = "0.4"
+"""Distance from a target to which a character walks to reach it, m."""
+_OF_ONE_FACE: Final = frozenset({"type", "au", "side", "amount"})
+"""Attributes in which faces differ that are one."""
+
+
+def regroup(block: Tree, source: BlockSource) -> None:
+    """Rewrites the behaviors of a draft that do not correspond to one behavior here each, in place.
+
+    - Action units with the same times become one face, so that they move the mouth together.
+    - Noise of several joints becomes noise of each, and noise in the hold of a gesture a behavior of its own.
+    - A reach with a walk becomes a walk and a reach.
+    """
+    for holder in [block, *block.iter("required")]:
+        _join_faces(holder, source)
+        for tree in list(holder):
+            split = _SPLITS.get(name_of(tree))
+            if split is not None and namespace_of(tree) in {"", SBM}:
+                _give_id(tree, source)
+                for added in split(tree, source):
+                    source.place(added, tree)
+                    _give_id(added, source)
+                    tree.addnext(added)
+
+
+def _give_id(tree: Tree, source: BlockSource) -> None:
+    if not tree.get("id"):
+        source.ids.give(tree)
+
+
+def _join_faces(holder: Tree, source: BlockSource) -> None:
+    for face in holder.iterchildren("face"):
+        drop(face, *WITHOUT_EFFECT)
+    for times, group in groupby(list(holder), _times_of_face):
+        faces = list(group)
+        if times is None or len(faces) < 2:
+            continue
+        first = faces[0]
+        whole = etree.Element("face", {**dict(times), "amount": "1"})
+        source.place(whole, first)
+        first.addprevious(whole)
+        for face in faces:
+            for name, _ in times:
+                del face.attrib[name]
+            face.attrib.pop("type", "")
+            face.tag = "faceFacs"
+            whole.append(face)  # with the text behind it
+        whole.tail, faces[-1].tail = faces[-1].tail, None
+
+
+def _times_of_face(tree: Tree) -> tuple[tuple[str, str], ...] | None:
+    """The attributes that action units share if they are one face; None for other behaviors, and those with an id."""
+    if namespace_of(tree) or name_of(tree) != "face" or "id" in tree.attrib or "au" not in tree.attrib or len(tree):
+        return None
+    return tuple(sorted((str(name), str(value)) for name, value in tree.items() if name not in _OF_ONE_FACE))
+
+
+def _split_noise(tree: Tree, source: BlockSource) -> Iterator[Tree]:
+    joints = take(tree, _JOINTS).split()
+    for joint in joints[1:]:
+        attributes = {str(name): str(value) for name, value in tree.items() if name != "id"}
+        yield etree.Element(tree.tag, {**attributes, "joint": joint})
+    if joints:
+        tree.set("joint", joints[0])
+
+
+def _split_gesture(tree: Tree, source: BlockSource) -> Iterator[Tree]:
+    """The noise of some joints while the hands hold after the stroke, if they do."""
+    joints, scale, frequency = take(tree, _JOINTS).split(), take(tree, "scale"), take(tree, "frequency")
+    if joints and ("relax" in tree.attrib or "poststroke_hold" in tree.attrib):
+        times = {"start": f"{tree.get('id')}:strokeEnd", "end": f"{tree.get('id')}:relax"}
+        for joint in joints:
+            values = {"joint": joint, "scale": scale, "frequency": frequency}
+            yield etree.Element(
+                f"{{{SBM}}}noise", {**times, **{name: value for name, value in values.items() if value}}
+            )
+
+
+def _split_reach(tree: Tree, source: BlockSource) -> Iterator[Tree]:
+    """The walk to the target of a reach."""
+    target = tree.get("target", "") or tree.get(f"{{{SBM}}}target-pos", "")
+    if take(tree, "use-locomotion").lower() == "true" and target:
+        walk = etree.Element("locomotion", {"target": target})
+        source.place(walk, tree)
+        set_parameter(walk, "distance", _WITHIN_REACH, source)
+        if "start" in tree.attrib:
+            walk.set("start", str(tree.attrib.pop("start")))
+        _give_id(walk, source)
+        tree.set("start", f"{walk.get('id')}:end")
+        yield walk
+
+
+_SPLITS: Final[dict[str, Callable[[Tree, BlockSource], Iterator[Tree]]]] = {
+    "noise": _split_noise,
+    "gesture": _split_gesture,
+    "reach": _split_reach,
+}
