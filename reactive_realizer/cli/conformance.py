@@ -6,8 +6,11 @@ import json
 from collections import Counter
 from collections.abc import AsyncIterator, Mapping
 
-from reactive_realizer.conformance.case import read_suite
-from reactive_realizer.conformance.suite import Outcome, Verdict, run_suite
+from reactive_realizer.conformance.case import PROFILES, Profile, read_suite
+from reactive_realizer.conformance.connection import Connection, ProgramConnection, SocketConnection
+from reactive_realizer.conformance.suite import PATIENCE, TOLERANCE, Outcome, Verdict, run_suite
+
+_ALL = "all"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -18,7 +21,23 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "server is stopped."
     )
     parser.epilog = "example: reactive-realizer conformance http://127.0.0.1:8088 --case append --case replace"
-    parser.add_argument("url", metavar="URL", help="the address of the server, http://127.0.0.1:8088")
+    realizer = parser.add_mutually_exclusive_group(required=True)
+    realizer.add_argument("url", metavar="URL", nargs="?", help="the address of the server, http://127.0.0.1:8088")
+    realizer.add_argument(
+        "--program", metavar="COMMAND", help="a program that reads BML and writes feedback, instead of a server"
+    )
+    parser.add_argument(
+        "--profile",
+        action="append",
+        choices=[*Profile, _ALL],
+        metavar="NAME",
+        help=f"also assert, besides {PROFILES[Profile.BML]}: "
+        + "; ".join(f"{profile}: {text}" for profile, text in PROFILES.items() if profile is not Profile.BML)
+        + f"; {_ALL} of these",
+    )
+    parser.add_argument(
+        "--tolerance", type=float, default=TOLERANCE, metavar="S", help=f"tolerance of times; {TOLERANCE:g} by default"
+    )
     parser.add_argument("--json", action="store_true", help="print a JSON object instead of a table")
     parser.add_argument(
         "--case", action="append", choices=names, metavar="NAME", help=f"run only this case: {', '.join(names)}"
@@ -32,9 +51,18 @@ def run(options: argparse.Namespace) -> int:
 
 
 async def _run(options: argparse.Namespace) -> int:
-    cases = [case for case in read_suite() if not options.case or case.name in options.case]
-    outcomes = run_suite(options.url, cases)
-    verdicts = await (_print_json(options.url, outcomes) if options.json else _print_table(outcomes))
+    asked = options.profile or ()
+    profiles = {*Profile} if _ALL in asked else {Profile.BML, *map(Profile, asked)}
+    wanted = options.case or [case.name for case in read_suite() if case.profile in profiles]
+    cases = [case for case in read_suite() if case.name in wanted]
+    connection: Connection
+    if options.program:
+        connection = ProgramConnection(options.program, PATIENCE)
+    else:
+        connection = SocketConnection(options.url, PATIENCE)
+    outcomes = run_suite(connection, cases, profiles, options.tolerance)
+    realizer = options.program or options.url
+    verdicts = await (_print_json(realizer, outcomes) if options.json else _print_table(outcomes))
     return 1 if verdicts[Verdict.FAILED] else 0
 
 
@@ -50,11 +78,11 @@ async def _print_table(outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:
     return verdicts
 
 
-async def _print_json(url: str, outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:
+async def _print_json(realizer: str, outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:
     all_ = [outcome async for outcome in outcomes]
     verdicts = Counter(outcome.verdict for outcome in all_)
     numbers = {str(verdict): verdicts[verdict] for verdict in Verdict}
-    print(json.dumps({"url": url, **numbers, "cases": list(map(_as_json, all_))}, indent=1))
+    print(json.dumps({"realizer": realizer, **numbers, "cases": list(map(_as_json, all_))}, indent=1))
     return verdicts
 
 

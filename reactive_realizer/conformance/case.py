@@ -2,7 +2,9 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 from importlib.resources import files
+from types import MappingProxyType
 from typing import Final
 
 from lxml import etree
@@ -12,8 +14,27 @@ from reactive_realizer.bml.document import parse
 from reactive_realizer.limits import Limits
 from reactive_realizer.testing.feedback_list import FeedbackList
 
-TOLERANCE: Final = 0.01
-"""Tolerance of times, s: one tick at 100 Hz, the lowest rate that a realizer may have."""
+
+class Profile(StrEnum):
+    """What is asserted: each profile adds something to what BML 1.0 requires."""
+
+    BML = "bml"
+    BMLA = "bmla"
+    PREDICTIONS = "predictions"
+    STATUS = "status"
+    STRICT = "strict"
+
+
+PROFILES: Final = MappingProxyType(
+    {
+        Profile.BML: "what BML 1.0 requires",
+        Profile.BMLA: "the attributes and behaviors of BMLA",
+        Profile.PREDICTIONS: "that points are reached at their predicted times",
+        Profile.STATUS: "the states in which blocks end (`bmla:status`), also of blocks that never start",
+        Profile.STRICT: "the ids and types of warnings, and that waiting blocks start at once",
+    }
+)
+"""The profiles, each with what it asserts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,15 +44,22 @@ class Check:
     Attributes:
         source: the part of the script, or the rule of BML, that requires it.
         assertion: raises AssertionError if it does not hold.
+        profile: to which it belongs.
+        timed: whether the assertion compares times, and so has the argument ``tolerance`` (s).
     """
 
     source: str
-    assertion: Callable[[FeedbackList], None]
+    assertion: Callable[..., None]
+    profile: Profile = Profile.BML
+    timed: bool = False
 
-    def problem(self, feedback: FeedbackList) -> str | None:
-        """The reason for which it does not hold; None if it holds."""
+    def problem(self, feedback: FeedbackList, tolerance: float) -> str | None:
+        """The reason for which it does not hold, with a tolerance of times, s; None if it holds."""
         try:
-            self.assertion(feedback)
+            if self.timed:
+                self.assertion(feedback, tolerance=tolerance)
+            else:
+                self.assertion(feedback)
         except AssertionError as problem:
             return f"{problem} ({self.source})"
         except (ValueError, LookupError, StopIteration) as problem:
@@ -88,10 +116,12 @@ class ConformanceCase:
         sends: documents to send, in order.
         warnings: all expected warnings.
         ends: the state in which a block ends, of those that do not end DONE.
+        profile: to which the case belongs.
     """
 
     name: str
     title: str
+    profile: Profile
     sends: tuple[Send, ...]
     warnings: tuple[Warned, ...]
     ends: dict[str, str]
@@ -118,7 +148,8 @@ def read_case(name: str, text: bytes) -> ConformanceCase:
     sends = tuple(map(_send, root.iterchildren("send")))
     warnings = tuple(map(_warned, root.iterchildren("warning")))
     ends = {_attribute(element, "block"): _attribute(element, "status") for element in root.iterchildren("end")}
-    return ConformanceCase(name, _attribute(root, "title"), sends, warnings, ends)
+    profile = Profile(root.get("profile", Profile.BML))
+    return ConformanceCase(name, _attribute(root, "title"), profile, sends, warnings, ends)
 
 
 def _attribute(element: etree._Element, name: str) -> str:

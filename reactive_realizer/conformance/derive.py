@@ -9,7 +9,7 @@ from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.block import BehaviorBlock, Order, OrderKind, Synchronize
 from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.conformance.case import TOLERANCE, Check, ConformanceCase
+from reactive_realizer.conformance.case import Check, ConformanceCase, Profile
 from reactive_realizer.conformance.relations import relations
 from reactive_realizer.testing.assertions import (
     DONE,
@@ -23,6 +23,7 @@ from reactive_realizer.testing.assertions import (
     assert_predicted,
     assert_reported_once,
     assert_syncs_in_order,
+    assert_warned,
     assert_warnings,
 )
 
@@ -33,7 +34,9 @@ def checks_of(case: ConformanceCase) -> Iterator[Check]:
     """All assertions of a case."""
     warnings = [(warning.id, warning.type) for warning in case.warnings]
     yield Check("progress", assert_reported_once)
-    yield Check("warnings", lambda feedback: assert_warnings(feedback, *warnings))
+    for id_, _ in warnings:
+        yield Check("warnings", partial(assert_warned, id_=id_))
+    yield Check("warnings", lambda feedback: assert_warnings(feedback, *warnings), Profile.STRICT)
     for block in case.blocks:
         yield from _block(case, block)
     yield from relations(case)
@@ -41,12 +44,12 @@ def checks_of(case: ConformanceCase) -> Iterator[Check]:
 
 def _block(case: ConformanceCase, block: BehaviorBlock) -> Iterator[Check]:
     status = case.ends.get(block.id, DONE)
-    yield Check(f"{block.id} ends {status}", partial(assert_ended, block=block.id, status=status))
+    yield Check(f"{block.id} ends {status}", partial(assert_ended, block=block.id, status=status), Profile.STATUS)
     if not case.starts(block):
         yield Check(f"{block.id} is never played", partial(assert_not_played, behavior=block.id))
         return
     yield Check(f"all of {block.id} is between its start and its end", partial(assert_block_around, block=block.id))
-    yield Check("time", partial(assert_block_times, block=block.id, tolerance=TOLERANCE))
+    yield Check("time", partial(assert_block_times, block=block.id), timed=True)
     yield _predicted(f"{block.id}:start")
     if status == DONE:
         yield _predicted(f"{block.id}:end")
@@ -62,14 +65,14 @@ def _whole(case: ConformanceCase, block: BehaviorBlock) -> Iterator[Check]:
             yield Check(f"{name} is left out", partial(assert_not_played, behavior=name))
         else:
             yield _in_order(name, behavior)
-            yield Check(_PREDICTION, partial(assert_all_predicted, behavior=name, tolerance=TOLERANCE))
+            yield Check(_PREDICTION, partial(assert_all_predicted, behavior=name), Profile.PREDICTIONS, timed=True)
             yield from _ties(block, name, behavior)
     if block.id not in silent:
         yield from _constraints(block)
 
 
 def _predicted(point: str) -> Check:
-    return Check(_PREDICTION, partial(assert_predicted, point=point, tolerance=TOLERANCE))
+    return Check(_PREDICTION, partial(assert_predicted, point=point), Profile.PREDICTIONS, timed=True)
 
 
 def _in_order(name: str, behavior: Behavior) -> Check:
@@ -114,9 +117,8 @@ def _ordered(block: BehaviorBlock, constraint: Order) -> Iterator[Check]:
                 earlier=_point(block, early),
                 later=_point(block, late),
                 distance=early.offset - late.offset,
-                tolerance=TOLERANCE,
             )
-            yield Check(f"{ref} {constraint.kind} {constraint.ref}", assertion)
+            yield Check(f"{ref} {constraint.kind} {constraint.ref}", assertion, timed=True)
 
 
 def _linked(point: str, offset: float, block: BehaviorBlock, ref: SyncRef, text: str) -> Iterator[Check]:
@@ -126,7 +128,7 @@ def _linked(point: str, offset: float, block: BehaviorBlock, ref: SyncRef, text:
 
 
 def _distance(point: str, other: str, offset: float, text: str) -> Check:
-    return Check(text, partial(assert_linked, point=point, other=other, offset=offset, tolerance=TOLERANCE))
+    return Check(text, partial(assert_linked, point=point, other=other, offset=offset), timed=True)
 
 
 def _point(block: BehaviorBlock, ref: SyncRef) -> str:

@@ -6,7 +6,7 @@ from functools import partial
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.extensions import Activate, Interrupt
 from reactive_realizer.bml.vocabulary import Composition
-from reactive_realizer.conformance.case import TOLERANCE, Check, ConformanceCase
+from reactive_realizer.conformance.case import Check, ConformanceCase, Profile
 from reactive_realizer.testing.assertions import assert_linked, assert_order, assert_starts_with_last
 
 
@@ -16,7 +16,7 @@ def relations(case: ConformanceCase) -> Iterator[Check]:
     for block in case.blocks:
         if case.starts(block):
             yield from _waits(case, block, earlier)
-            yield from _comes_after(block, earlier)
+            yield from _comes_after(case, block, earlier)
             yield from _acts(block)
         earlier.append(block)
 
@@ -25,8 +25,11 @@ def _waits(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[Behavi
     """A block starts at the last of the points that it waits for, neither before nor after."""
     points = [*_awaited(case, block, earlier), *(_activating(case, block) if block.preplan else ())]
     if points:
-        assertion = partial(assert_starts_with_last, block=block.id, points=points, tolerance=TOLERANCE)
-        yield Check(f"{block.id} waits for {', '.join(points)}", assertion)
+        waits = f"{block.id} waits for {', '.join(points)}"
+        for point in points:
+            yield Check(waits, partial(assert_order, earlier=point, later=f"{block.id}:start"), timed=True)
+        at_once = partial(assert_starts_with_last, block=block.id, points=points)
+        yield Check(waits, at_once, Profile.STRICT, timed=True)
 
 
 def _awaited(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[str]:
@@ -60,12 +63,14 @@ def _subsiding(case: ConformanceCase, block: BehaviorBlock) -> Iterator[str]:
         yield f"{block.id}:{behavior.id}:{last}"
 
 
-def _comes_after(block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
+def _comes_after(case: ConformanceCase, block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[Check]:
     """A block starts after the end of the blocks that it ends, possibly later, because it has to be prepared."""
-    ended = [other.id for other in _beside(block, earlier)] if block.composition is Composition.REPLACE else []
-    for other in (*ended, *block.interrupts):
-        assertion = partial(assert_order, earlier=f"{other}:end", later=f"{block.id}:start", tolerance=TOLERANCE)
-        yield Check(f"{block.id} ends {other}", assertion)
+    replaced = [other.id for other in _beside(block, earlier)] if block.composition is Composition.REPLACE else []
+    ended = (*replaced, *block.interrupts)
+    for other in (other for other in case.blocks if other.id in ended):
+        assertion = partial(assert_order, earlier=f"{other.id}:end", later=f"{block.id}:start")
+        profile = Profile.BML if case.starts(other) else Profile.STATUS
+        yield Check(f"{block.id} ends {other.id}", assertion, profile, timed=True)
 
 
 def _beside(block: BehaviorBlock, earlier: Iterable[BehaviorBlock]) -> Iterator[BehaviorBlock]:
@@ -79,5 +84,4 @@ def _acts(block: BehaviorBlock) -> Iterator[Check]:
             ended = [f"{behavior.target}:{name}" for name in behavior.include] or [behavior.target]
             start = f"{block.id}:{behavior.id}:start"
             for name in ended:
-                assertion = partial(assert_linked, point=f"{name}:end", other=start, tolerance=TOLERANCE)
-                yield Check("interrupt", assertion)
+                yield Check("interrupt", partial(assert_linked, point=f"{name}:end", other=start), timed=True)

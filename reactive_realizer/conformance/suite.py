@@ -1,18 +1,21 @@
 """Runs cases against a realizer, one after the other."""
 
-from collections.abc import AsyncIterator, Iterable
+from collections.abc import AsyncIterator, Collection, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import count
 from typing import Final
 
 from reactive_realizer.bml.names import BML
-from reactive_realizer.conformance.case import ConformanceCase
-from reactive_realizer.conformance.client import RealizerClient
+from reactive_realizer.conformance.case import ConformanceCase, Profile
+from reactive_realizer.conformance.connection import Connection
 from reactive_realizer.conformance.derive import checks_of
 
 PATIENCE: Final = 20.0
 """Time limit for every answer, s; no case takes half of it."""
+
+TOLERANCE: Final = 0.01
+"""Tolerance of times, s: one tick at 100 Hz."""
 
 _UNSUPPORTED: Final = (
     "BEHAVIOR_TYPE_NOT_SUPPORTED",
@@ -46,33 +49,47 @@ class Outcome:
     problems: tuple[str, ...]
 
 
-async def run_suite(url: str, cases: Iterable[ConformanceCase], patience: float = PATIENCE) -> AsyncIterator[Outcome]:
+async def run_suite(
+    connection: Connection,
+    cases: Iterable[ConformanceCase],
+    profiles: Collection[Profile] = tuple(Profile),
+    tolerance: float = TOLERANCE,
+) -> AsyncIterator[Outcome]:
     """Runs cases, and ends all blocks after each.
+
+    Args:
+        connection: to the realizer, not yet entered.
+        cases: to run.
+        profiles: which assertions count, besides those of BML 1.0.
+        tolerance: of times, s.
 
     Raises:
         RealizerError: the realizer is not reached or stops responding, or the connection is lost.
     """
-    async with RealizerClient(url, patience) as client:
-        runner = _Runner(client)
+    async with connection as client:
+        runner = _Runner(client, {*profiles, Profile.BML}, tolerance)
         await runner.stop()
         for case in cases:
             yield await runner.run(case)
 
 
 class _Runner:
-    def __init__(self, client: RealizerClient) -> None:
+    def __init__(self, client: Connection, profiles: Collection[Profile], tolerance: float) -> None:
         self._client = client
+        self._profiles = profiles
+        self._tolerance = tolerance
         self._stops = count(1)
 
     async def run(self, case: ConformanceCase) -> Outcome:
         self._client.forget()
         waited = [*await self._play(case), *await self.stop()]
-        feedback, checks = self._client.feedback, list(checks_of(case))
+        feedback = self._client.feedback
+        checks = [check for check in checks_of(case) if check.profile in self._profiles]
         expected = {(warning.id, warning.type) for warning in case.warnings}
         unknown = [f"{id_}: {type_}" for id_, type_ in feedback.warnings if type_ in _UNSUPPORTED]
         if unknown and not expected.intersection(feedback.warnings):
             return Outcome(case, Verdict.UNSUPPORTED, 0, tuple(unknown))
-        failed = [problem for check in checks if (problem := check.problem(feedback)) is not None]
+        failed = [problem for check in checks if (problem := check.problem(feedback, self._tolerance)) is not None]
         problems = (*self._client.mistakes, *waited, *failed)
         return Outcome(case, Verdict.FAILED if problems else Verdict.PASSED, len(checks), problems)
 
@@ -92,7 +109,8 @@ class _Runner:
                 return missed
             if not await self._client.send(send.xml):
                 return [_UNANSWERED]
-        return await self._wait([f"{block.id}:end" for block in case.blocks], len(case.warnings))
+        ending = [block.id for block in case.blocks if case.starts(block) or Profile.STATUS in self._profiles]
+        return await self._wait([f"{id_}:end" for id_ in ending], len(case.warnings))
 
     async def _wait(self, points: list[str], warnings: int = 0) -> list[str]:
         client = self._client

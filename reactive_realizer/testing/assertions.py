@@ -86,6 +86,13 @@ def assert_warnings(feedback: FeedbackList, *warnings: tuple[str, str]) -> None:
     assert not other, f"a warning of {_listed(map(' '.join, other))}"
 
 
+def assert_warned(feedback: FeedbackList, id_: str) -> None:
+    """A warning of any type was sent about a behavior, or about its block or document."""
+    block = id_.partition(":")[0]
+    names = {id_, block, "", "bml"}
+    assert any(warned in names for warned, _ in feedback.warnings), f"no warning of {id_}"
+
+
 def assert_not_played(feedback: FeedbackList, behavior: str) -> None:
     """No point of a behavior or block was reported except its end."""
     played = [id_ for id_ in feedback.progress if id_.startswith(f"{behavior}:") and id_ != f"{behavior}:end"]

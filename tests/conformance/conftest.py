@@ -9,6 +9,7 @@ from itertools import count
 import pytest
 from aiohttp import web
 from aiohttp.test_utils import TestServer
+from lxml import etree
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
@@ -16,6 +17,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
+from reactive_realizer.testing.pilot import open_pilot
 
 _SPEED = 5
 
@@ -39,6 +41,43 @@ async def realizer() -> AsyncIterator[str]:
         async with TestServer(create_app(live, Security())) as server:
             yield str(server.make_url(""))
         ticking.cancel()
+
+
+@asynccontextmanager
+async def plain_realizer() -> AsyncIterator[str]:
+    """The address of this realizer behind a relay that passes on only what BML 1.0 requires.
+
+    There are no predictions and no attributes of other namespaces, blocks that never start do not end, and warnings
+    have another type and the id of the block.
+    """
+
+    def plain(xml: str) -> str | None:
+        element = etree.fromstring(xml)
+        for name in [name for name in element.attrib if str(name).startswith("{")]:
+            del element.attrib[name]
+        if element.tag.endswith("warningFeedback"):
+            element.set("id", element.get("id", "").partition(":")[0])
+            element.set("type", "OTHER")
+        return None if element.tag.endswith("predictionFeedback") else etree.tostring(element, encoding="unicode")
+
+    async def relay(request: web.Request) -> web.WebSocketResponse:
+        socket = web.WebSocketResponse()
+        await socket.prepare(request)
+        await socket.send_json({"type": "hello", "protocol": 2})
+        async with open_pilot() as pilot:
+            told = 0
+            async for message in socket:
+                said = message.json()
+                pilot.perform(said["xml"])
+                await socket.send_json({"type": "accepted", "ref": said["ref"]})
+                await pilot.advance(6)
+                for xml in filter(None, map(plain, pilot.feedback.raw[told:])):
+                    await socket.send_json({"type": "feedback", "time": 0.0, "xml": xml})
+                told = len(pilot.feedback.raw)
+        return socket
+
+    async with address_of(relay) as url:
+        yield url
 
 
 class WrongRealizer:

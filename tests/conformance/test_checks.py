@@ -8,6 +8,7 @@ import pytest
 from reactive_realizer.bml.document import parse
 from reactive_realizer.conformance.case import ConformanceCase, read_case, read_suite
 from reactive_realizer.conformance.derive import checks_of
+from reactive_realizer.conformance.suite import TOLERANCE
 from reactive_realizer.limits import Limits
 from reactive_realizer.testing.feedback_list import FeedbackList
 from reactive_realizer.testing.pilot import block, open_pilot
@@ -34,7 +35,7 @@ def problems(case: ConformanceCase, told: Told) -> list[str]:
     feedback = FeedbackList()
     for time, xml in told:
         feedback.add(time, xml)
-    return [problem for check in checks_of(case) if (problem := check.problem(feedback))]
+    return [problem for check in checks_of(case) if (problem := check.problem(feedback, TOLERANCE))]
 
 
 async def played(script: str) -> Told:
@@ -200,7 +201,10 @@ async def test_unexpected_and_missing_warnings_are_reported() -> None:
     assert problems(case_of(script, warned), told) == []
     assert any("a warning of b:g NO_SUCH_TARGET" in problem for problem in problems(case_of(script), told))
     without = [line for line in told if "warningFeedback" not in line[1]]
-    assert problems(case_of(script, warned), without) == ["no warning of b:g NO_SUCH_TARGET (warnings)"]
+    assert problems(case_of(script, warned), without) == [
+        "no warning of b:g (warnings)",
+        "no warning of b:g NO_SUCH_TARGET (warnings)",
+    ]
 
 
 def test_every_case_of_the_suite_has_a_title_blocks_and_checks(subtests: pytest.Subtests) -> None:

@@ -2,8 +2,9 @@
 
 import asyncio
 import json
+import sys
 from collections import Counter
-from functools import partial
+from pathlib import Path
 
 import pytest
 from aiohttp import web
@@ -12,10 +13,13 @@ from aiohttp.test_utils import unused_port
 from reactive_realizer.__main__ import main
 from reactive_realizer.cli import conformance as command
 from reactive_realizer.conformance import suite
-from reactive_realizer.conformance.case import read_suite
+from reactive_realizer.conformance.case import Profile, read_suite
+from reactive_realizer.conformance.connection import SocketConnection
 from reactive_realizer.conformance.suite import Outcome, Verdict, run_suite
 
-from .conftest import WrongRealizer, address_of
+from .conftest import WrongRealizer, address_of, plain_realizer
+
+ADAPTER = Path(__file__).resolve().parents[2] / "examples" / "conformance_adapter.py"
 
 NOT_REALIZED = {
     "face",
@@ -26,7 +30,7 @@ NOT_REALIZED = {
 
 async def outcomes(url: str, *names: str, patience: float = suite.PATIENCE) -> list[Outcome]:
     cases = [case for case in read_suite() if not names or case.name in names]
-    return [outcome async for outcome in run_suite(url, cases, patience)]
+    return [outcome async for outcome in run_suite(SocketConnection(url, patience), cases)]
 
 
 async def test_this_realizer_passes_every_case_that_it_supports(realizer: str) -> None:
@@ -78,7 +82,63 @@ async def test_the_exit_status_is_1_and_the_table_gives_the_reasons_if_a_case_fa
         assert await conformance(url, "--case", "empty") == 1
     out = capsys.readouterr().out
     assert out.startswith("failed")
-    assert "  nothing was predicted of nothing before nothing:end was reported (the last prediction before it)\n" in out
+    assert "  nothing:start was reported 2 times (all of nothing is between its start and its end)\n" in out
+    assert "predicted" not in out
+
+
+async def test_what_a_profile_adds_is_asserted_if_it_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+    prediction = "  nothing was predicted of nothing before nothing:end was reported (the last prediction before it)\n"
+    async with address_of(WrongRealizer().serve) as url:
+        assert await conformance(url, "--case", "empty", "--profile", "predictions") == 1
+        assert prediction in capsys.readouterr().out
+        assert await conformance(url, "--case", "empty", "--profile", "status") == 1
+        out = capsys.readouterr().out
+    assert "  nothing ended None instead of DONE (nothing ends DONE)\n" in out
+    assert prediction not in out
+
+
+async def test_a_realizer_that_tells_only_what_bml_requires_conforms(capsys: pytest.CaptureFixture[str]) -> None:
+    """It has no states and no predictions, and warns of other things in other words."""
+    cases = ("empty", "wait", "append", "bad-lexeme", "posture")
+    async with plain_realizer() as url:
+        arguments = [word for name in cases for word in ("--case", name)]
+        assert await conformance(url, *arguments) == 0, capsys.readouterr().out
+        assert await conformance(url, *arguments, "--profile", "all") == 1
+
+
+def test_without_profiles_no_case_of_an_extension_is_asked_of_a_realizer() -> None:
+    names = {case.name for case in read_suite() if case.profile is Profile.BML}
+    assert "append" in names
+    assert not [name for name in names if name.startswith("bmla")]
+
+
+# --- a program instead of a server
+
+
+async def test_a_realizer_may_be_a_program_that_reads_and_writes_lines(
+    realizer: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program = f"{sys.executable} {ADAPTER} {realizer}"
+    names = ("wait", "speech", "bad-xml")
+    arguments = [word for name in names for word in ("--case", name)]
+    assert await conformance("--program", program, *arguments, "--profile", "all") == 0, capsys.readouterr().out
+    assert "3 passed" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ("no-such-program", "no-such-program"),
+        ('unclosed "quote', "No closing quotation"),
+        (f'{sys.executable} -c "raise SystemExit(3)"', "it ended with status 3"),
+    ],
+    ids=["none", "no command", "ends"],
+)
+async def test_the_exit_status_is_2_if_the_program_cannot_be_tested(
+    capsys: pytest.CaptureFixture[str], program: str, said: str
+) -> None:
+    assert await conformance("--program", program, "--case", "empty") == 2
+    assert said in capsys.readouterr().err
 
 
 async def test_the_json_output_has_the_results_of_the_table(realizer: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -87,7 +147,7 @@ async def test_the_json_output_has_the_results_of_the_table(realizer: str, capsy
     assert (told["passed"], told["failed"], told["unsupported"]) == (1, 0, 0)
     (case,) = told["cases"]
     assert (case["name"], case["verdict"], case["problems"]) == ("speech", "passed", [])
-    assert case["checks"] > 4
+    assert case["checks"] >= 4
 
 
 async def test_the_exit_status_is_2_if_no_server_listens(capsys: pytest.CaptureFixture[str]) -> None:
@@ -135,7 +195,7 @@ async def test_the_exit_status_is_2_if_the_connection_is_lost(capsys: pytest.Cap
 async def test_the_exit_status_is_2_after_one_case_if_the_realizer_does_not_respond(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(command, "run_suite", partial(run_suite, patience=0.05))
+    monkeypatch.setattr(command, "PATIENCE", 0.05)
     listened: list[str] = []
 
     async def listen(request: web.Request) -> web.WebSocketResponse:

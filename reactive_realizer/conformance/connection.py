@@ -1,0 +1,187 @@
+"""Connections to the realizer under test: the socket of the protocol, or a program that reads and writes lines."""
+
+import asyncio
+import json
+import shlex
+from abc import ABC, abstractmethod
+from asyncio.subprocess import PIPE, Process
+from collections.abc import Callable
+from itertools import count
+from typing import Any, Self
+
+from lxml import etree
+
+from reactive_realizer.client.realizer_socket import NotReached, RealizerSocket
+from reactive_realizer.errors import RealizerError
+from reactive_realizer.testing.feedback_list import FeedbackList
+
+_LONGEST_LINE = 16_000_000
+"""Bytes."""
+
+
+class Connection(ABC):
+    """A connection to a realizer; used as an async context manager.
+
+    Args:
+        patience: time limit for every answer, s.
+
+    Attributes:
+        feedback: all feedback since the last `forget`.
+        mistakes: the invalid messages since then.
+
+    Raises:
+        RealizerError: "not-reached" or "other-protocol"; also in `send` and `until`, if the connection is lost.
+    """
+
+    def __init__(self, patience: float) -> None:
+        self.feedback = FeedbackList()
+        self.mistakes: list[str] = []
+        self._silent = True
+        self._patience = patience
+
+    @abstractmethod
+    async def __aenter__(self) -> Self: ...
+
+    @abstractmethod
+    async def __aexit__(self, *_: object) -> None: ...
+
+    @abstractmethod
+    async def send(self, xml: str) -> bool:
+        """Sends a document; returns whether it was answered in time."""
+
+    @abstractmethod
+    async def _receive(self) -> None:
+        """Takes the next message."""
+
+    @abstractmethod
+    def _not_reached(self, reason: str) -> RealizerError: ...
+
+    def forget(self) -> None:
+        """Discards the feedback received so far."""
+        self.feedback = FeedbackList()
+        self.mistakes = []
+        self._silent = True
+
+    def check_alive(self) -> None:
+        """Checks that any message was received since `forget`.
+
+        Raises:
+            RealizerError: "not-reached".
+        """
+        if self._silent:
+            raise self._not_reached(f"it accepted a document, but sent no message for {self._patience:g} s")
+
+    async def until(self, condition: Callable[[], bool]) -> bool:
+        """Receives messages until a condition holds; returns whether it held in time."""
+        try:
+            async with asyncio.timeout(self._patience):
+                while not condition():
+                    await self._receive()
+                    self._silent = False
+        except TimeoutError:
+            return False
+        return True
+
+    def _add(self, time: float, xml: str) -> None:
+        try:
+            self.feedback.add(time, xml)
+        except etree.XMLSyntaxError as problem:
+            self.mistakes.append(f"feedback that is not XML: {problem}")
+
+
+class SocketConnection(Connection):
+    """A client of the protocol, as a planner uses it.
+
+    Args:
+        url: of the realizer's server or its socket; its query may contain a token.
+        patience: time limit for every answer, s.
+    """
+
+    def __init__(self, url: str, patience: float) -> None:
+        super().__init__(patience)
+        self._socket = RealizerSocket(url, patience)
+        self._refs = count(1)
+        self._answered: set[object] = set()
+
+    async def __aenter__(self) -> Self:
+        await self._socket.__aenter__()
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self._socket.__aexit__()
+
+    async def send(self, xml: str) -> bool:
+        """Sends a document; returns whether it was answered in time."""
+        ref = next(self._refs)
+        await self._socket.send(type="bml", xml=xml, ref=ref)
+        return await self.until(lambda: ref in self._answered)
+
+    async def _receive(self) -> None:
+        self._take(await self._socket.receive())
+
+    def _take(self, message: dict[str, Any]) -> None:
+        match message:
+            case {"type": "feedback", "time": float(time) | int(time), "xml": str(xml)}:
+                self._add(time, xml)
+            case {"type": "accepted" | "error", "ref": ref}:
+                self._answered.add(ref)
+            case {"type": "error"}:
+                pass
+            case _:
+                self.mistakes.append(f"unexpected message {json.dumps(message)[:200]}")
+
+    def _not_reached(self, reason: str) -> RealizerError:
+        return self._socket.not_reached(reason)
+
+
+class ProgramConnection(Connection):
+    """A program that reads a document of BML from each line of its input, and writes each feedback in a line.
+
+    Lines that do not begin with ``<`` are not feedback, and are ignored. The program is ended with the connection.
+
+    Args:
+        command: the program and its arguments, as in a shell.
+        patience: time limit for every answer, s.
+    """
+
+    def __init__(self, command: str, patience: float) -> None:
+        super().__init__(patience)
+        self._command = command
+        self._clock = asyncio.get_running_loop().time
+
+    async def __aenter__(self) -> Self:
+        try:
+            program, *arguments = shlex.split(self._command)
+            self._process: Process = await asyncio.create_subprocess_exec(
+                program, *arguments, stdin=PIPE, stdout=PIPE, limit=_LONGEST_LINE
+            )
+        except (OSError, ValueError) as problem:
+            raise self._not_reached(str(problem)) from problem
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        if self._process.returncode is None:
+            self._process.terminate()
+        await self._process.communicate()
+
+    async def send(self, xml: str) -> bool:
+        """Writes a document in a line."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(" ".join(xml.splitlines()).encode() + b"\n")
+        try:
+            await self._process.stdin.drain()
+        except ConnectionError as problem:
+            raise self._not_reached(str(problem)) from problem
+        return True
+
+    async def _receive(self) -> None:
+        assert self._process.stdout is not None
+        line = await self._process.stdout.readline()
+        if not line:
+            raise self._not_reached(f"it ended with status {await self._process.wait()}")
+        text = line.decode(errors="replace").strip()
+        if text.startswith("<"):
+            self._add(self._clock(), text)
+
+    def _not_reached(self, reason: str) -> RealizerError:
+        return RealizerError(NotReached(url=self._command, reason=reason))
