@@ -6,7 +6,7 @@ from functools import lru_cache
 from types import MappingProxyType
 
 from reactive_realizer.bml.attributes import attributes_of
-from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.behaviors import Posture
 
 _NONE: Mapping[str, str] = MappingProxyType({})
@@ -82,15 +82,17 @@ def _word(text: str) -> str:
 def behavior_attributes(behavior: Behavior) -> dict[str, str]:
     """Return the attributes of a behavior by which bindings match.
 
-    These are the attributes of its element, defaults included, in the spelling of BML 1.0 for every dialect; attributes
-    of other namespaces as ``{uri}name``; its ``bmlt:parameter`` children, which override attributes of the same name;
-    and the stance of a posture.
+    These are the attributes of its element, defaults included, in the spelling of BML 1.0 for every dialect, and for an
+    element of another namespace as they are written; attributes of other namespaces as ``{uri}name``; its
+    ``bmlt:parameter`` children, which override attributes of the same name; and the stance of a posture.
     """
     values = {each.name: getattr(behavior, each.field) for each in attributes_of(type(behavior))}
     if isinstance(behavior, Posture):
         values["stance"] = behavior.stance
     own = {name: _text(value) for name, value in values.items() if value is not None}
     foreign = {f"{{{namespace}}}{name}": value for (namespace, name), value in behavior.extensions.items()}
+    if isinstance(behavior, ForeignBehavior):
+        own |= behavior.attributes
     return {**own, **foreign, **behavior.parameters}
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from reactive_realizer.binding.unit_spec import UnitSpec, normalized
+from reactive_realizer.bml.behavior import Behavior
 
 _MODE = "mode"
 """The attribute that selects the hands. If a behavior omits it, the realizer chooses the hands."""
@@ -63,6 +64,10 @@ class UnitSpecs:
         if _MODE in values:
             return (*exact[:1], *(spec for spec in exact[1:] if _MODE in spec.constraints))
         return (*exact, *(spec for spec in specs if _MODE in spec.constraints and spec.fits(values, _MODE)))
+
+    def binds(self, behavior: Behavior) -> bool:
+        """Whether there are entries for the element of a behavior."""
+        return (behavior.namespace, behavior.name, None) in self._by_lexeme
 
     def constrained_values(self, behavior: str, namespace: str) -> Mapping[str, tuple[str, ...]]:
         """Return the attributes that the entries for an element constrain, each with its values in these entries."""

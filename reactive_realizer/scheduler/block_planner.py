@@ -53,7 +53,7 @@ class ForeignNotSupported(Fault):
     """A behavior of another namespace that no engine plays."""
 
     code = "foreign-not-supported"
-    template = "<{element}> of {namespace} is not supported and is left out"
+    template = "<{element}> of {namespace} is left out: no engine and no entry of a binding plays it"
     warning = WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED
     element: str
     namespace: str

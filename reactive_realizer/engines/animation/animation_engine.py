@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import TypeVar
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
-from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.behaviors import (
     Gaze,
     GazeShift,
@@ -195,6 +195,11 @@ class AnimationEngine(DefaultEngine):
     def lexicon(self) -> Iterator[LexiconEntry]:
         """Yield the entries of the binding, and the poses of postures."""
         return binding_lexicon(self._library, next(iter(self._world.targets)))
+
+    def supports(self, behavior: Behavior) -> bool:
+        """Whether a behavior is of one of its kinds, or of another namespace and has an entry in the binding."""
+        bound = isinstance(behavior, ForeignBehavior) and self._library.binding.binds(behavior)
+        return bound or super().supports(behavior)
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
         """Return the points of the motion that the binding has for a behavior; None if its file is yet to be read.

@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from reactive_realizer.binding.face_binding import FaceBinding
-from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.behaviors import Face, FaceFacs, FaceLexeme, FaceShift
 from reactive_realizer.bml.extensions import FACES, FaceKeyframe, FaceMorph, FacePlutchik
 from reactive_realizer.bml.murml.behaviors import MurmlFace
@@ -78,6 +78,11 @@ class FaceEngine(DefaultEngine):
     def lexicon(self) -> Iterator[LexiconEntry]:
         """The face lexemes."""
         return self._library.lexicon()
+
+    def supports(self, behavior: Behavior) -> bool:
+        """Whether a behavior is of one of its kinds, or of another namespace and has an entry in the binding."""
+        bound = isinstance(behavior, ForeignBehavior) and self._library.binding.binds(behavior)
+        return bound or super().supports(behavior)
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
         """The points of a face; None for an animation whose file is yet to be read.

@@ -32,16 +32,13 @@ class NoFaceUnit(CreationFault):
 class FaceLibrary:
     """Makes the faces of one character.
 
-    Args:
-        binding: with the entries to choose from.
-        shapes: the faces of its avatar.
-
     Attributes:
+        binding: with the entries to choose from.
         shapes: the faces of its avatar.
     """
 
     def __init__(self, binding: FaceBinding, shapes: FaceShapes) -> None:
-        self._binding = binding
+        self.binding = binding
         self.shapes = shapes
         self._lexemes = {
             spec.constraints[_LEXEME]: spec for spec in reversed(binding.specs) if _LEXEME in spec.constraints
@@ -58,7 +55,7 @@ class FaceLibrary:
         """
         attributes = behavior_attributes(behavior)
         refused: dict[UnitSpec, Fault] = {}
-        for spec in self._binding.match(behavior.name, behavior.namespace, attributes):
+        for spec in self.binding.match(behavior.name, behavior.namespace, attributes):
             try:
                 shape = self._made(spec, attributes)
             except RealizerError as problem:
