@@ -93,7 +93,7 @@ _NOTES = {
     "parameter of any behavior name": "of [the motion that plays it](binding.md#kinds-of-motion)",
     "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
     "emit event": "its content, of any kind, is for planners",
-    "idleChange parameter": "breaths per minute, their depth relative to that at rest, blinks per minute",
+    "idleChange parameter": "breaths per minute, their depth relative to that at rest, blinks and glances per minute",
     "idleChange value": "reached at the end, evenly, and kept until another change",
     "keyPoses group": "the joints that move; only arms have `position` and `swivel`, and only heads `lookAt`",
     "keyPoses fadeIn": "time in which it takes over the joints",

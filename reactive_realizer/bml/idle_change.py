@@ -1,4 +1,4 @@
-"""Changes of what a character does of itself all the time, in our own namespace: breathing, blinking."""
+"""Changes of what a character does of itself all the time, in our own namespace: breathing, blinking, glances."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -22,6 +22,8 @@ class IdleParameter(StrEnum):
     """Depth of breaths, relative to that at rest."""
     BLINK_RATE = "BLINK_RATE"
     """Blinks per minute; 0 for none."""
+    GLANCE_RATE = "GLANCE_RATE"
+    """Glances aside per minute, of eyes without a target; 0 for none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

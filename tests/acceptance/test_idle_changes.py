@@ -37,6 +37,14 @@ def blinks(pilot: RealizerPilot, begin: float, end: float) -> int:
     return int((shut[1:] & ~shut[:-1]).sum())
 
 
+def glances(pilot: RealizerPilot, begin: float, end: float) -> int:
+    """How often the left eye jumps by more than a degree in a tenth of a second, there and back, between two times."""
+    bodies = pilot.bodies()[round(begin * FRAMES) : round(end * FRAMES)]
+    turns = np.degrees([2.0 * np.array(body.rotation("l_eyeball_joint")[1:3]) for body in bodies])
+    jumps = np.linalg.norm(turns[5:] - turns[:-5], axis=1) > 1.0
+    return int((jumps[1:] & ~jumps[:-1]).sum()) // 2
+
+
 async def test_breaths_become_as_frequent_and_as_deep_as_asked_for_and_stay_so() -> None:
     async with open_pilot() as pilot:
         pilot.watch()
@@ -61,6 +69,17 @@ async def test_blinks_become_more_frequent_and_none_at_0() -> None:
         await pilot.advance(20)
         assert 12 <= blinks(pilot, 0, 20) <= 28
         assert blinks(pilot, 21, 40) == 0
+
+
+async def test_glances_become_more_frequent_and_none_at_0() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document('parameter="GLANCE_RATE" value="60" end="0.1"'))
+        await pilot.advance(40)
+        pilot.perform(document('parameter="GLANCE_RATE" value="0" end="0.1"').replace('id="b"', 'id="d"'))
+        await pilot.advance(30)
+    assert glances(pilot, 10, 40) >= 20
+    assert glances(pilot, 45, 70) == 0
 
 
 async def test_a_later_change_takes_over_and_a_replacement_of_everything_returns_to_usual() -> None:

@@ -7,6 +7,7 @@ from reactive_realizer.bml.behaviors import REACH, Face, FaceFacs, Gaze, Gesture
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.extensions import Emit, Interrupt, Keyframe, Noise
+from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.references import check_references
 from reactive_realizer.bml.vocabulary import Influence, Mode, OffsetDirection, Side
@@ -387,6 +388,22 @@ def test_a_reach_may_walk_to_its_target_first() -> None:
 def test_a_gesture_with_its_stroke_at_0_starts_as_early_as_possible() -> None:
     assert list(only('<gesture lexeme="BEAT" stroke="0" relax="2"/>').syncs) == ["relax"]
     assert list(only('<gesture lexeme="BEAT" stroke="0" start="0"/>').syncs) == ["stroke", "start"]
+
+
+@pytest.mark.parametrize(
+    ("written", "rate"), [('mode="talk"', 14.8), ('mode="listen"', 7.2), ('mode="think"', 20.0), ('finish="true"', 0.0)]
+)
+def test_a_mode_of_saccades_is_a_rate_of_glances(written: str, rate: float) -> None:
+    change = only(f"<saccade {written}/>")
+    assert isinstance(change, IdleChange)
+    assert (change.parameter, change.value) == (IdleParameter.GLANCE_RATE, rate)
+
+
+def test_single_saccades_and_unknown_modes_are_told() -> None:
+    (sentence,) = told('<saccade mode="talk" magnitude="10" direction="45"/>')
+    assert sentence.startswith("magnitude, direction of SmartBody has no effect on <saccade>")
+    (sentence,) = told('<saccade mode="sing"/>')
+    assert sentence.startswith("mode='sing' of <saccade>: not one of listen, talk, think")
 
 
 def test_groups_and_priorities_make_no_difference() -> None:

@@ -13,6 +13,7 @@ from reactive_realizer.engines.animation.blinks import USUAL_RATE, Blinks
 from reactive_realizer.engines.animation.idle_course import IdleCourse
 from reactive_realizer.engines.animation.idle_movements import (
     USUAL_BREATHING,
+    USUAL_GLANCES,
     Breath,
     Glances,
     Leaning,
@@ -48,6 +49,7 @@ class Idle:
             IdleParameter.BREATHING_RATE: IdleCourse(1.0),
             IdleParameter.BREATHING_DEPTH: IdleCourse(1.0),
             IdleParameter.BLINK_RATE: IdleCourse(1.0 if blink_rate > 0.0 else 0.0),
+            IdleParameter.GLANCE_RATE: IdleCourse(1.0),
         }
         self._blink_rate = blink_rate or USUAL_RATE
         self._breath = Breath(Random(random.getrandbits(64)))
@@ -62,7 +64,11 @@ class Idle:
 
     def relative(self, parameter: IdleParameter, value: float) -> float:
         """Return a value of a parameter relative to its usual one."""
-        usual = {IdleParameter.BREATHING_RATE: USUAL_BREATHING, IdleParameter.BLINK_RATE: self._blink_rate}
+        usual = {
+            IdleParameter.BREATHING_RATE: USUAL_BREATHING,
+            IdleParameter.BLINK_RATE: self._blink_rate,
+            IdleParameter.GLANCE_RATE: USUAL_GLANCES,
+        }
         return value / usual.get(parameter, 1.0)
 
     def reset(self, time: float) -> None:
@@ -108,6 +114,7 @@ class Idle:
 
     def eyes(self, time: float) -> dict[str, Quat]:
         """Return the rotations of eyes without a target: glances, microsaccades and drift."""
+        self._glances.rate = self.courses[IdleParameter.GLANCE_RATE].value(time)
         (left, up), (further_left, further_up) = self._glances.at(time), self._fixation.at(time)
         turn = from_euler(-self._degree * (up + further_up), self._degree * (left + further_left), 0.0)
         return dict.fromkeys(EYES, turn)

@@ -173,6 +173,12 @@ _DIRECTIONS = {0: 15.54, 45: 6.46, 90: 17.69, 135: 7.44, 180: 16.80, 225: 7.89, 
 _AHEAD = (237.5 / 30.0, 47.1 / 30.0)
 _ASIDE = (13.0 / 30.0, 7.1 / 30.0)
 
+USUAL_GLANCES = 60.0 / (_AHEAD[0] + _ASIDE[0])
+"""Glances per minute of a listener."""
+
+_LONGEST = 30.0
+"""Longest time between glances, s, so that they soon follow a change of their rate."""
+
 _FURTHEST = math.radians(5.0)
 """Limit of a glance, rad. Further to the side the head would follow, which is left to gaze behaviors."""
 
@@ -184,10 +190,15 @@ _SACCADE = (0.025, 0.0024 / math.radians(1.0))
 
 
 class Glances:
-    """Brief glances aside, about every eight seconds."""
+    """Brief glances aside, about every eight seconds.
+
+    Attributes:
+        rate: number of glances, relative to the usual one, from the next one on; 0 for none.
+    """
 
     def __init__(self, random: Random) -> None:
         """Draw from a generator that must not be shared."""
+        self.rate = 1.0
         self._random = random
         self._aside = True
         self._episodes: Episodes[Direction] = Episodes((0.0, 0.0), self._draw)
@@ -196,11 +207,14 @@ class Glances:
         self._aside = not self._aside
         if self._aside:
             return max(_SHORTEST, self._random.gauss(*_ASIDE)), (0.0, 0.0)
+        if self.rate <= 0.0:
+            return _LONGEST, (0.0, 0.0)
         nearest = math.exp(-_FURTHEST / _SPREAD)
         amplitude = -_SPREAD * math.log(self._random.uniform(nearest, 1.0))
         (degrees,) = self._random.choices(tuple(_DIRECTIONS), tuple(_DIRECTIONS.values()))
         angle = math.radians(degrees)
-        return max(_SHORTEST, self._random.gauss(*_AHEAD)), (amplitude * math.cos(angle), amplitude * math.sin(angle))
+        ahead = self._random.gauss(*_AHEAD) * ((_AHEAD[0] + _ASIDE[0]) / self.rate - _ASIDE[0]) / _AHEAD[0]
+        return max(_SHORTEST, min(_LONGEST, ahead)), (amplitude * math.cos(angle), amplitude * math.sin(angle))
 
     def at(self, time: float) -> Direction:
         """Return the direction of the eyes."""
