@@ -181,9 +181,14 @@ def test_a_target_may_be_a_joint_of_smartbody_skeletons() -> None:
     assert read.target == "brad:l_eyeball_joint"
 
 
+@pytest.mark.parametrize(("written", "speed"), [("400", "400"), ("200 1000", "200"), ("50 150 1000", "200")])
+def test_the_speed_of_the_joints_is_a_limit_for_the_head(written: str, speed: str) -> None:
+    assert gaze(f'sbm:joint-speed="{written}" sbm:joint-smooth="0.2"').parameters == {"speed": speed}
+
+
 def test_what_a_gaze_cannot_do_is_told_in_one_warning() -> None:
-    (sentence,) = told('<gaze target="x" sbm:roll="10" sbm:joint-speed="400" sbm:handle="h"/>')
-    assert sentence == "sbm:roll, sbm:joint-speed of SmartBody has no effect on <gaze> here"
+    (sentence,) = told('<gaze target="x" sbm:roll="10" sbm:fade-out="1" sbm:handle="h"/>')
+    assert sentence == "sbm:roll, sbm:fade-out of SmartBody has no effect on <gaze> here"
 
 
 # --- head, face, gestures, clips, walking

@@ -3,6 +3,7 @@
 import re
 from typing import Final
 
+from reactive_realizer.bml.attribute_types import Float
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.smartbody.attributes import (
     drop,
@@ -16,7 +17,7 @@ from reactive_realizer.bml.smartbody.attributes import (
 from reactive_realizer.bml.smartbody.joints import target_named
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.vocabulary import Influence, OffsetDirection
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, RealizerError
 
 _KEYS: Final = {
     "BACK": "back",
@@ -53,13 +54,14 @@ _AROUND: Final = (
 """Directions from the target, clockwise, each 45 degrees from the one before."""
 _POLAR: Final = re.compile(r"POLAR\s+([-+]?[0-9.]+)", re.IGNORECASE)
 _USUAL_ANGLE: Final = "30"
+_FASTEST: Final = 10_000.0
 _LONGEST: Final = 60.0
 
 
 def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a gaze, in place, and returns the faults of what is left out.
 
-    A later gaze replaces one that persists, whatever their handles are.
+    A later gaze replaces one that persists, whatever their handles are. Turns are always smooth.
     """
     _choose_joints(tree, source)
     _offset(tree)
@@ -69,7 +71,8 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
     for name in ("time-hint", "fade-in"):
         if time := take_number(tree, name, source, 0.0, _LONGEST):
             tie(tree, "ready", "start", time)
-    drop(tree, "handle")
+    _limit_speed(tree, source)
+    drop(tree, "handle", "joint-smooth", "speed-smoothing")
     return left_out(tree, source)
 
 
@@ -83,6 +86,20 @@ def _choose_joints(tree: Tree, source: BlockSource) -> None:
     tree.set("influence", _INFLUENCES[groups[min(places)]])
     for group in groups[max(places) + 1 :]:
         set_parameter(tree, group, "0", source)
+
+
+def _limit_speed(tree: Tree, source: BlockSource) -> None:
+    """The first number is the speed of the head, of two the second one that of the eyes; of three, two of the head."""
+    text = take(tree, "joint-speed")
+    if not text:
+        return
+    try:
+        speeds = [Float(0.0, _FASTEST).read(speed, source.limits) for speed in text.split()]
+    except RealizerError as refused:
+        raise source.bad_attribute(tree, "sbm:joint-speed", text, refused) from None
+    head = sum(speeds[: max(1, len(speeds) - 1)])
+    if head > 0.0:
+        set_parameter(tree, "speed", f"{min(max(head, 1.0), _FASTEST):g}", source)
 
 
 def _offset(tree: Tree) -> None:

@@ -62,6 +62,32 @@ async def test_the_head_turns_about_one_axis_and_fastest_half_way(pilot: Realize
     assert max(steps) == pytest.approx(1.875 * angle(turns[-1]) / len(steps), rel=0.1)
 
 
+SLOW = '<bmlt:parameter name="speed" value="20"/>'
+
+
+@pytest.mark.parametrize("element", ["gaze", "gazeShift", "headDirectionShift"])
+async def test_a_behavior_may_limit_the_speed_of_the_head(pilot: RealizerPilot, element: str) -> None:
+    put(pilot, "t", 40, 0)
+    pilot.block("b", f'<{element} id="g" target="t" start="0">{SLOW}</{element}>')
+    await pilot.advance(8)
+    arrival = "ready" if element == "gaze" else "end"
+    arrived = pilot.feedback.time(f"b:g:{arrival}")
+    assert 3.0 < arrived < 4.5
+    fastest = math.degrees(max(speeds(pilot.bodies()[: at(pilot, arrived)], "skullbase")))
+    assert fastest == pytest.approx(20.0, rel=0.15)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_limit_beyond_the_usual_speed_of_a_head_changes_nothing(pilot: RealizerPilot) -> None:
+    put(pilot, "t", 40, 0)
+    pilot.block("b", '<gaze id="g" target="t" start="0"/>')
+    await pilot.advance(4)
+    pilot.block("c", f'<gaze id="g" target="t" start="0">{SLOW.replace("20", "800")}</gaze>')
+    await pilot.advance(4)
+    usual, limited = (pilot.feedback.time(f"{name}:g:ready") for name in "bc")
+    assert limited - 4.0 == pytest.approx(usual)
+
+
 @pytest.mark.parametrize(
     ("influence", "joints"),
     [

@@ -14,7 +14,7 @@ from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.joints import TRUNK
+from reactive_realizer.embodiment.joints import HEAD, TRUNK
 from reactive_realizer.embodiment.place import heading_of
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, angle, difference, slerp
@@ -38,6 +38,13 @@ from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import lag, turning_time
 from reactive_realizer.engines.animation.walking.manner import stepping_time, turn_of_feet
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.planunit.parameter import Range
+
+SPEED = "speed"
+"""Parameter of gazes and shifts: limit of the angular velocity of the head on its way to the target, degrees/s."""
+
+SPEED_RANGE = Range(1.0, 10_000.0)
+"""Its valid values; the head turns no faster than people do."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +113,7 @@ class GazeMotionUnit(MotionUnit):
 
     kind = LayerKind.GAZE
     planning_work = 25
+    fixed = frozenset({SPEED})
     joints = frozenset(joint for joints in JOINT_GROUPS.values() for joint in joints)
 
     def __init__(
@@ -118,6 +126,7 @@ class GazeMotionUnit(MotionUnit):
         *,
         may_step: bool = False,
         follows: bool = False,
+        speed: float = math.inf,
     ) -> None:
         """Plan a gaze.
 
@@ -129,6 +138,7 @@ class GazeMotionUnit(MotionUnit):
             expected: the target as it is now; without one, the gaze has no shortest durations.
             may_step: whether the feet turn the figure where joints do not reach the target.
             follows: whether the target may move meanwhile.
+            speed: limit of the angular velocity of the head on its way to the target, rad/s.
         """
         self.parameters = dict(weights)
         self.ranges = {group: GAZE_WEIGHTS[group] for group in weights}
@@ -148,7 +158,7 @@ class GazeMotionUnit(MotionUnit):
         if expected is not None:
             turn = self._step_turn(expected)
             self.steps = self.steps or turn != 0.0
-            self._take_time(stepping_time(turn).preferred)
+            self._take_time(max(stepping_time(turn).preferred, self._slow(expected, speed)))
             self.shortest = self._shortest(expected, stepping_time(turn).shortest)
 
     @property
@@ -158,6 +168,13 @@ class GazeMotionUnit(MotionUnit):
     @property
     def _relax(self) -> float:
         return self.key_positions.get("relax", math.inf)
+
+    def _slow(self, expected: GazeTarget, speed: float) -> float:
+        """Return the time that the head needs from rest to the expected target at a limited speed, s."""
+        body = self._rest.body
+        turned = body.posed(head_turn_toward(body, self._rest.pose, expected.point, self.parameters).rotations)
+        way = angle(difference(body.transform(HEAD[-1]).rotation, turned.transform(HEAD[-1]).rotation))
+        return MINIMUM_JERK_PEAK * way / speed
 
     def _take_time(self, turn: float) -> None:
         """Make the turn, and the turn back, at least as long as a turn of the feet takes, s."""
@@ -270,6 +287,12 @@ DYNAMIC = (BMLT, "dynamic")
 """Attribute of a gaze that follows a moving target."""
 
 
+def _speed(request: MotionRequest) -> float:
+    """Return the limit of the speed of the head that a behavior or its binding gives, rad/s; infinity for none."""
+    given = parameter_values(request.parameters, {SPEED: SPEED_RANGE})
+    return math.radians(given[SPEED]) if SPEED in given else math.inf
+
+
 class GazeMaker:
     """Makes gazes and shifts of gaze to targets of the world.
 
@@ -301,7 +324,9 @@ class GazeMaker:
         kind = GAZE_SHIFT if isinstance(gaze, GazeShift) else LOOK
         may_step, follows = _may_step(self._context, weights, gaze.target), self._follow or _follows(gaze)
         rest = self._context.rest
-        return GazeMotionUnit(target, weights, rest, kind, expected, may_step=may_step, follows=follows)
+        return GazeMotionUnit(
+            target, weights, rest, kind, expected, may_step=may_step, follows=follows, speed=_speed(request)
+        )
 
 
 class HeadDirectionMaker:
@@ -321,7 +346,9 @@ class HeadDirectionMaker:
         weights = default_weights(Influence.HEAD) | parameter_values(request.parameters, GAZE_WEIGHTS)
         del weights[EYE_WEIGHT]
         may_step, rest, follows = _may_step(self._context, weights, shift.target), self._context.rest, _follows(shift)
-        return GazeMotionUnit(target, weights, rest, HEAD_SHIFT, expected, may_step=may_step, follows=follows)
+        return GazeMotionUnit(
+            target, weights, rest, HEAD_SHIFT, expected, may_step=may_step, follows=follows, speed=_speed(request)
+        )
 
 
 def _may_step(context: MakerContext, weights: Mapping[str, float], target: str) -> bool:
