@@ -24,7 +24,7 @@ from reactive_realizer.bml.faults import (
 )
 from reactive_realizer.bml.names import ANTICIPATORS, BML, BML_EXT, Location
 from reactive_realizer.bml.smartbody.requests import UNCLOSED_MARK
-from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS, SyncRef
+from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS, SPEECH_POINTS, SyncRef
 from reactive_realizer.bml.trees import (
     Tree,
     extensions_of,
@@ -241,6 +241,7 @@ class BlockIds:
         self._behaviors = {id_.strip() for each in _behaviors_in(block) if (id_ := each.get("id"))}
         marks = block.iter("{*}sync", "{*}tm", f"{{*}}{UNCLOSED_MARK}", "{*}mark")
         self._marks = frozenset(id_ for mark in marks if (id_ := mark.get("id") or mark.get("name")))
+        self._speeches = {each.get("id", "").strip() for each in _behaviors_in(block) if name_of(each) == "speech"}
         self._numbers: defaultdict[str, Iterator[int]] = defaultdict(partial(count, 1))
 
     def give(self, behavior: Tree) -> None:
@@ -260,6 +261,8 @@ class BlockIds:
         ref = SyncRef.parse(text, limits, self._marks).read_in(self._block, self._behaviors)
         if self.draft and ref.sync not in self._marks:
             ref = replace(ref, sync=DRAFT_SPELLINGS.get(ref.sync or "", ref.sync))
+            if ref.block is None and ref.behavior in self._speeches:
+                ref = replace(ref, sync=SPEECH_POINTS.get(ref.sync or "", ref.sync))
         outside = ref.behavior is not None and ref.block not in {None, self._block, ANTICIPATORS}
         if outside and not self.external:
             raise RealizerError(ExternalReference())

@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Iterator
 from typing import Final
 
+from lxml import etree
+
 from reactive_realizer.bml.block import CAST, Problem
 from reactive_realizer.bml.faults import LeftOut, NoBlock
 from reactive_realizer.bml.names import BLOCK, SBM
@@ -10,7 +12,8 @@ from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 from reactive_realizer.bml.xml_roots import Root
 from reactive_realizer.errors import Fault
 
-_WRAPPERS: Final = frozenset({"fml-apml", "act"})
+_ACT: Final = "act"
+_WRAPPERS: Final = frozenset({"fml-apml", _ACT})
 """Elements around blocks: of Greta, with its intentions (FML) beside them, and of SmartBody."""
 _GRETA: Final = "gretaNameSpace"
 """The namespace in which Greta writes its additions to BML."""
@@ -69,6 +72,7 @@ def unwrapped(roots: Iterable[Root | Problem]) -> Iterator[Root | Problem]:
 
 def _inside(wrapper: Root) -> Iterator[Root | Problem]:
     """The blocks in a wrapper; the first one has the notes about what is left out."""
+    wrapper = _with_block(wrapper)
     blocks = [child for child in wrapper.tree if _is_block(child)]
     participants = [child for child in wrapper.tree if name_of(child) == _PARTICIPANT]
     actor = next((each.get("id", "") for each in participants if each.get("role", _ACTOR) == _ACTOR), "")
@@ -86,6 +90,17 @@ def _inside(wrapper: Root) -> Iterator[Root | Problem]:
         if actor:
             block.set(_CAST, actor)
         yield Root(block, wrapper.locations, tuple(notes) if number == 0 else ())
+
+
+def _with_block(wrapper: Root) -> Root:
+    """A wrapper with a block: behaviors that stand directly in an act are moved into one."""
+    tree = wrapper.tree
+    behaviors = [child for child in tree if name_of(child) != _PARTICIPANT]
+    if name_of(tree) != _ACT or not behaviors or any(map(_is_block, behaviors)):
+        return wrapper
+    block = etree.SubElement(tree, BLOCK)
+    block.extend(behaviors)
+    return Root(tree, {**wrapper.locations, block: wrapper.locations[tree]}, wrapper.notes)
 
 
 def _is_block(tree: Tree) -> bool:

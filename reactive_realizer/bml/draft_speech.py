@@ -23,6 +23,8 @@ _OF_OTHER_VOICES: Final = ("language", "voice", "type")
 """Attributes that select a voice of another system; the voice of the character speaks."""
 _OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax")
 """Sync points that speech files of SmartBody state, and that a speech does not have."""
+_NO_FILE: Final = "voice_defaultTTS"
+"""What the Virtual Human Toolkit writes as the recording of a speech that a voice speaks."""
 _MARKS: Final = ("tm", UNCLOSED_MARK, "mark")
 _ACCENT, _BOUNDARY = "pitchaccent", "boundary"
 _STRENGTHS: Final = ("strong", "moderate", "reduced", "none")
@@ -40,11 +42,23 @@ def modernize_speech(tree: Tree, source: BlockSource) -> list[Fault]:
             mark.tag = "sync"
             if "name" in mark.attrib and "id" not in mark.attrib:
                 mark.set("id", str(mark.attrib.pop("name")))
+        _drop_repeated_marks(holder)
     _describe_file(tree, str(tree.attrib.pop("ref", "")), source)
     said = str(tree.attrib.pop("text", "")).strip()
     if not children_of(tree, "text") and (said or stray_text_of(tree) or children_of(tree, "sync")):
         _wrap_text(tree, said, source)
     return [fault for text in children_of(tree, "text") for fault in _prosody(tree, text, source)]
+
+
+def _drop_repeated_marks(holder: Tree) -> None:
+    """Removes marks that follow one with the same id at once: generators write one after a word and before the next."""
+    for mark in children_of(holder, "sync"):
+        before = mark.getprevious()
+        same = before is not None and name_of(before) == "sync" and before.get("id") == mark.get("id")
+        if before is not None and same and not (before.tail or "").strip():
+            before.tail = (before.tail or "") + (mark.tail or "")
+            mark.tail = None
+            holder.remove(mark)
 
 
 def _wrap_text(tree: Tree, said: str, source: BlockSource) -> None:
@@ -74,7 +88,7 @@ def _say(text: Tree, pieces: Iterable[str], before: Tree | None = None) -> None:
 
 def _describe_file(tree: Tree, ref: str, source: BlockSource) -> None:
     """Describes a speech as the recording that its attribute ``ref`` names."""
-    if ref.strip():
+    if ref.strip() and ref.strip() != _NO_FILE:
         description = source.insert(tree, "description", {"priority": "1", "type": "audio/x-wav"})
         source.insert(description, "file", {"ref": ref.strip()})
 

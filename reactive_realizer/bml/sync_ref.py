@@ -24,6 +24,11 @@ BLOCK_POINTS: Final = ("start", *OWN_BLOCK_POINTS, "relax", "end")
 DRAFT_SPELLINGS: Final[Mapping[str, str]] = MappingProxyType({"stroke_start": "strokeStart", "stroke_end": "strokeEnd"})
 """Names of sync points in the drafts before BML 1.0, to their names in BML 1.0."""
 
+SPEECH_POINTS: Final[Mapping[str, str]] = MappingProxyType(
+    {"ready": "start", "strokeStart": "start", "stroke": "start", "strokeEnd": "end", "relax": "end"}
+)
+"""Sync points that a speech of SmartBody has, to those that it has in BML 1.0."""
+
 _STROKE: Final = "stroke"
 FIRST_STROKE: Final = "stroke:1"
 

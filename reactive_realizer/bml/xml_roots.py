@@ -101,6 +101,8 @@ def _encoding_of(data: bytes) -> str:
             return encoding
     declared = _DECLARED_ENCODING.search(data)
     encoding = codecs.lookup(declared[1].decode()).name if declared else "utf-8"
+    if encoding == "utf-16":  # written before the text was encoded in another way: a declaration in UTF-16 is not found
+        return "utf-8"
     if encoding not in _BYTE_ENCODINGS:
         raise LookupError(encoding)
     return encoding

@@ -123,6 +123,44 @@ def test_an_event_may_have_the_prefix_or_its_message_as_text() -> None:
         assert (emit.event, emit.content, str(emit.syncs["start"])) == ("done", "7", "1")
 
 
+GENERATED = """vrSpeak brad user r7 <?xml version="1.0" encoding="utf-16"?>
+<act><participant id="brad" role="actor"/><bml>
+  <speech id="sp1" ref="voice_defaultTTS" type="application/ssml+xml"><mark name="T1"/>I <mark name="T2"/>
+    <mark name="T2"/>am <mark name="T3"/><mark name="T3"/>late <mark name="T4"/></speech>
+  <event message="vrAgentSpeech partial r7 T3 I am " stroke="sp1:T3"/>
+  <sbm:event message="vrSpoke brad user r7" stroke="sp1:relax" xmlns:sbm="http://ict.usc.edu"/>
+  <head type="NOD" amount="0.1" repeats="1" relax="sp1:T3" priority="1"/>
+  <face type="FACS" au="1" amount="5.0" stroke="sp1:T2" priority="1"/>
+</bml></act>"""
+"""As generators of nonverbal behavior write requests."""
+
+
+def test_a_request_of_a_generator_is_read() -> None:
+    speech, partial, spoke, head, face = block(GENERATED).behaviors
+    assert speech.sync_points == ("start", "T1", "T2", "T3", "T4", "end")
+    assert speech.descriptions == ()
+    assert (str(partial.syncs["start"]), str(spoke.syncs["start"])) == ("sp1:T3", "sp1:end")
+    assert str(head.syncs["relax"]) == "sp1:T3"
+    assert isinstance(face, FaceFacs)
+    assert (face.amount, str(face.syncs["attackPeak"])) == (1.0, "sp1:T2")
+
+
+def test_a_document_may_declare_the_encoding_that_it_had_before() -> None:
+    (parsed,) = parse(b'<?xml version="1.0" encoding="utf-16"?><act><bml id="b"/></act>', Limits())
+    assert parsed.block is not None
+
+
+def test_marks_with_the_same_id_apart_from_each_other_are_told() -> None:
+    (problem,) = read('<bml><speech id="s"><mark name="a"/>so <mark name="a"/>what</speech></bml>').problems
+    assert problem.fault.code == "duplicate-id"
+
+
+def test_behaviors_may_stand_directly_in_an_act() -> None:
+    own = block('<act>\n<participant id="brad"/><head type="NOD"/> <gaze target="x"/></act>')
+    assert (own.id, own.played_by(["alice", "brad"])) == ("document1", "brad")
+    assert [behavior.location for behavior in own.behaviors] == [Location(2, 25), Location(2, 44)]
+
+
 # --- gaze
 
 
@@ -212,6 +250,19 @@ def test_the_period_of_a_waggle_gives_its_duration() -> None:
 def test_parameters_of_waggles_without_a_counterpart_are_told() -> None:
     (sentence,) = told('<head type="WAGGLE" sbm:warp="0.5" sbm:accel="1.5" sbm:axis="0"/>')
     assert sentence == "sbm:warp, sbm:accel of SmartBody has no effect on <head> here"
+
+
+@pytest.mark.parametrize(("written", "point"), [('ready="1"', "1"), ('stroke="2"', "2"), ('ready="1" stroke="2"', "1")])
+def test_a_face_is_complete_at_its_ready_or_its_stroke(written: str, point: str) -> None:
+    face = only(f'<face type="facs" au="1" {written} stroke_end="3" relax="4"/>')
+    assert {name: str(ref) for name, ref in face.syncs.items()} == {"relax": "4", "attackPeak": point}
+
+
+def test_a_movement_of_the_head_with_an_amount_below_0_begins_the_other_way() -> None:
+    written = ('type="nod" amount="-0.2"', 'type="SHAKE" amount="-0.3"', 'type="TOSS" amount="-3"')
+    heads = [only(f"<head {each}/>") for each in written]
+    read = [(head.lexeme, head.amount) for head in heads if isinstance(head, Head)]
+    assert read == [("UP", 0.2), ("SHAKE", 0.3), ("DOWN", 1.0)]
 
 
 def test_ramps_of_a_face_tie_its_points() -> None:

@@ -33,6 +33,11 @@ _MOST_VELOCITY: Final = 20.0
 _STROKES: Final = {"SHAKE": (0.2, 0.5), "TOSS": (0.1, 0.6)}
 _NOD: Final = (0.3, 0.4)
 """Duration of a nod at the velocity 1, s: a constant part, and that of each stroke; above, those of other movements."""
+_OPPOSITES: Final = {"NOD": "UP", "TOSS": "DOWN"}
+"""Movements of the head with an amount below 0; those to both sides only begin to the other side."""
+_PEAKS: Final = ("ready", "strokeStart", "stroke_start", "stroke")
+"""Points of a face at one of which it is complete: the first one that is tied."""
+_AFTER_PEAK: Final = (*_PEAKS, "strokeEnd", "stroke_end")
 _WAVES: Final = 3
 """Waves of a wiggle or waggle."""
 _OF_WALKERS: Final = {"speed": "speed", "facing": "facing", "proximity": "distance"}
@@ -96,8 +101,24 @@ def _head(tree: Tree, source: BlockSource) -> list[Fault]:
         tie(tree, "end", "start", (fixed + each * strokes) / velocity)
     if period is not None:
         tie(tree, "end", "start", _WAVES * period * strokes)
+    amount = _limit_amount(tree)
+    if amount < 0.0:
+        tree.set("amount", f"{min(-amount, 1.0):g}")
+        kind = tree.get("type", "")
+        tree.set("type", _OPPOSITES.get(kind.upper(), kind))
     drop(tree, "axis")
     return left_out(tree, source)
+
+
+def _limit_amount(tree: Tree) -> float:
+    """Limits an amount to 1, as SmartBody does, and returns it; what is no number is left to the reader."""
+    try:
+        amount = float(tree.get("amount", "0"))
+    except ValueError:
+        return 0.0
+    if amount > 1.0:
+        tree.set("amount", "1")
+    return amount
 
 
 def _locomotion(tree: Tree, source: BlockSource) -> list[Fault]:
@@ -112,6 +133,11 @@ def _locomotion(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def _face(tree: Tree, source: BlockSource) -> list[Fault]:
+    for point in _PEAKS:
+        if point in tree.attrib:
+            rename(tree, point, "attackPeak")
+    drop(tree, *_AFTER_PEAK)
+    _limit_amount(tree)
     for name, (point, other, sign) in _RAMPS.items():
         seconds = take_number(tree, name, source, 0.0, _LONGEST)
         if seconds is not None:
