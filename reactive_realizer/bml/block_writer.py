@@ -18,8 +18,8 @@ from reactive_realizer.bml.block import (
     Synchronize,
     UseProc,
 )
-from reactive_realizer.bml.extensions import Controller, Emit
-from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN
+from reactive_realizer.bml.extensions import Controller, Emit, Noise
+from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN, SBM
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.writer import attribute_texts, behavior_element, text_of
 
@@ -90,6 +90,8 @@ class _Writer:
             return _constraint(part)
         if not isinstance(part, ForeignBehavior | Emit) and not _is_draft(part):
             return behavior_element(part)
+        if isinstance(part, Noise):
+            return _lasting_noise(part)
         # One of no language known here, or of a draft alone: as it was written.
         source = etree.fromstring(part.source)
         prefixes: Any = source.nsmap
@@ -102,6 +104,13 @@ class _Writer:
 def _is_draft(behavior: Behavior) -> bool:
     """Return whether a behavior can be written only in a draft of BML, such as a gaze that persists."""
     return behavior.persistent and not isinstance(behavior, Controller) and bool(behavior.source)
+
+
+def _lasting_noise(noise: Noise) -> Tree:
+    """Return noise that persists as SmartBody's, which does; BMLT's does not."""
+    element = behavior_element(noise)
+    element.tag = f"{{{SBM}}}noise"
+    return element
 
 
 def _constraint(constraint: Constraint) -> Tree:

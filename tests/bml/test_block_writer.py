@@ -34,6 +34,9 @@ DOCUMENTS = [
     '<murml-description><static slot="HandLocation" value="LocHead"/></murml-description></murmlgesture></bml>',
     f'<bmla:defineproc {SPACES} id="p"><head id="h" lexeme="NOD"/></bmla:defineproc>'
     f'<bmla:useproc {SPACES} procid="p" bmlid="u" characterId="alice"/>',
+    '<act><participant id="brad"/><bml><sbm:noise sbm:joint-range="l_elbow r_elbow" sbm:scale="0.1"/>'
+    '<sbm:reach target="x" sbm:action="pick-up" end="4"/><gaze target="x" sbm:joint-range="NECK" sbm:joint-speed="40"/>'
+    "</bml></act>",
     '<bml><gaze target="viewer" start="1"/><head type="NOD" repeats="2"/><posture stance="sitting"/></bml>',
 ]
 

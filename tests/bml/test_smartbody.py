@@ -1,12 +1,15 @@
 """SmartBody's requests, elements and attributes, which are read as behaviors of BML 1.0 and its extensions."""
 
+import json
+from pathlib import Path
+
 import pytest
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import REACH, Face, FaceFacs, Gaze, Gesture, Head, Locomotion, Pointing, Wait
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.extensions import Emit, Interrupt, Keyframe, Noise
+from reactive_realizer.bml.extensions import Emit, FaceFap, Interrupt, Keyframe, Noise
 from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.references import check_references
@@ -224,6 +227,12 @@ def test_the_speed_of_the_joints_is_a_limit_for_the_head(written: str, speed: st
     assert gaze(f'sbm:joint-speed="{written}" sbm:joint-smooth="0.2"').parameters == {"speed": speed}
 
 
+def test_a_gaze_without_a_target_fades_out_to_the_viewer() -> None:
+    gaze = only('<gaze id="g" sbm:handle="h" sbm:fade-out="0.7" start="2"/>')
+    assert isinstance(gaze, Gaze)
+    assert (gaze.target, str(gaze.syncs["ready"])) == ("viewer", "g:start+0.7")
+
+
 def test_what_a_gaze_cannot_do_is_told_in_one_warning() -> None:
     (sentence,) = told('<gaze target="x" sbm:roll="10" sbm:fade-out="1" sbm:handle="h"/>')
     assert sentence == "sbm:roll, sbm:fade-out of SmartBody has no effect on <gaze> here"
@@ -263,6 +272,15 @@ def test_a_movement_of_the_head_with_an_amount_below_0_begins_the_other_way() ->
     heads = [only(f"<head {each}/>") for each in written]
     read = [(head.lexeme, head.amount) for head in heads if isinstance(head, Head)]
     assert read == [("UP", 0.2), ("SHAKE", 0.3), ("DOWN", 1.0)]
+
+
+def test_a_viseme_is_one_of_mpeg_4() -> None:
+    viseme = only('<face id="f" type="viseme" viseme="PBM" amount="0.5" start="1" stroke="2"/>')
+    assert isinstance(viseme, FaceFap)
+    assert (viseme.fap, viseme.viseme_select1, viseme.viseme_blend) == ("viseme", 1, 32)
+    assert list(viseme.syncs) == ["start", "attackPeak"]
+    (sentence,) = told('<face type="viseme" viseme="growl"/>')
+    assert sentence.startswith("viseme='growl' of <face>: not one of _, SIL, PBM")
 
 
 def test_ramps_of_a_face_tie_its_points() -> None:
@@ -473,3 +491,32 @@ def test_a_number_that_is_none_drops_its_behavior() -> None:
 
 def test_an_element_that_is_not_known_stays_for_engines_of_plug_ins() -> None:
     assert only('<sbm:quickdraw id="q" anim="draw"/>').namespace == "urn:smartbody"
+
+
+# --- scripts of SmartBody's own examples
+
+NOT_WHOLE = {
+    "SBBmlProcessor.cpp": "unexpected text",
+    "FacialMovementDemo.py": "unexpected text",
+    "InitCharacterBehaviorBMLMapping.py": "start='$ready_time' of <faceFacs>",
+}
+"""Pieces of programs that are no BML as they stand, and what is said of them."""
+WITHOUT_COUNTERPART = {
+    "locomotionBlendCEGUI.py": "y, mode, sbm:schedule-mode, sbm:wrap-mode",
+    "KinectSimpleDemo.py": "x, y, sbm:wrap-mode",
+    "OgreDemo.js": "x, y",
+    "MeCtBodyReachState.cpp": "sbm:release-pawn",
+}
+"""Attributes in SmartBody's examples that nothing here corresponds to."""
+
+
+def test_the_scripts_of_smartbody_are_read(shared_cases: Path, subtests: pytest.Subtests) -> None:
+    said = NOT_WHOLE | WITHOUT_COUNTERPART
+    for line in (shared_cases / "smartbody" / "snippets.jsonl").read_text().splitlines():
+        script = json.loads(line)
+        name = script["source"].rpartition("/")[2]
+        with subtests.test(script["bml"]):
+            parsed = read(f"<act>{script['bml']}</act>")
+            assert parsed.block is not None
+            for problem in parsed.problems:
+                assert problem.fault.sentence.startswith(said[name])

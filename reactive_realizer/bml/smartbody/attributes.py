@@ -85,3 +85,14 @@ def left_out(tree: Tree, source: BlockSource, *names: str) -> list[Fault]:
         del tree.attrib[name]
     attributes = (*plain, *(f"sbm:{name.removeprefix(_PREFIX)}" for name in own))
     return [source.located(tree, NoCounterpart(element=name_of(tree), attributes=attributes))] if attributes else []
+
+
+def limit_amount(tree: Tree) -> float:
+    """Limits an amount to 1, as SmartBody does, and returns it; what is no number is left to the reader."""
+    try:
+        amount = float(tree.get("amount", "0"))
+    except ValueError:
+        return 0.0
+    if amount > 1.0:
+        tree.set("amount", "1")
+    return amount

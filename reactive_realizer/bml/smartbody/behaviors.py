@@ -15,12 +15,14 @@ from reactive_realizer.bml.smartbody.attributes import (
     WITHOUT_EFFECT,
     drop,
     left_out,
+    limit_amount,
     rename,
     set_parameter,
     take,
     take_number,
     tie,
 )
+from reactive_realizer.bml.smartbody.faces import adapt_face
 from reactive_realizer.bml.smartbody.gaze import adapt_gaze
 from reactive_realizer.bml.smartbody.gestures import adapt_clip, adapt_gesture
 from reactive_realizer.bml.smartbody.noise import adapt_noise
@@ -35,20 +37,11 @@ _NOD: Final = (0.3, 0.4)
 """Duration of a nod at the velocity 1, s: a constant part, and that of each stroke; above, those of other movements."""
 _OPPOSITES: Final = {"NOD": "UP", "TOSS": "DOWN"}
 """Movements of the head with an amount below 0; those to both sides only begin to the other side."""
-_PEAKS: Final = ("ready", "strokeStart", "stroke_start", "stroke")
-"""Points of a face at one of which it is complete: the first one that is tied."""
-_AFTER_PEAK: Final = (*_PEAKS, "strokeEnd", "stroke_end")
 _WAVES: Final = 3
 """Waves of a wiggle or waggle."""
 _OF_WALKERS: Final = {"speed": "speed", "facing": "facing", "proximity": "distance"}
 """Attributes of a locomotion, and the parameters that they are here."""
 _MANNERS: Final = {"JOG": "RUN", "SBM:STEP": "STRAFE", "SIDESTEP": "STRAFE"}
-_RAMPS: Final = {
-    "duration": ("end", "start", 1.0),
-    "rampup": ("attackPeak", "start", 1.0),
-    "rampdown": ("relax", "end", -1.0),
-}
-"""Times of a face, and the points that they tie: after another one, or before it."""
 _GLANCES: Final = {"listen": 7.2, "talk": 14.8, "think": 20.0}
 """Glances per minute: of listeners and speakers after S. P. Lee, J. B. Badler and N. I. Badler, "Eyes Alive" (SIGGRAPH
 2002), whose model SmartBody uses too; of people who think, our choice."""
@@ -101,24 +94,13 @@ def _head(tree: Tree, source: BlockSource) -> list[Fault]:
         tie(tree, "end", "start", (fixed + each * strokes) / velocity)
     if period is not None:
         tie(tree, "end", "start", _WAVES * period * strokes)
-    amount = _limit_amount(tree)
+    amount = limit_amount(tree)
     if amount < 0.0:
         tree.set("amount", f"{min(-amount, 1.0):g}")
         kind = tree.get("type", "")
         tree.set("type", _OPPOSITES.get(kind.upper(), kind))
     drop(tree, "axis")
     return left_out(tree, source)
-
-
-def _limit_amount(tree: Tree) -> float:
-    """Limits an amount to 1, as SmartBody does, and returns it; what is no number is left to the reader."""
-    try:
-        amount = float(tree.get("amount", "0"))
-    except ValueError:
-        return 0.0
-    if amount > 1.0:
-        tree.set("amount", "1")
-    return amount
 
 
 def _locomotion(tree: Tree, source: BlockSource) -> list[Fault]:
@@ -129,19 +111,6 @@ def _locomotion(tree: Tree, source: BlockSource) -> list[Fault]:
     if manner:
         tree.set("manner", _MANNERS.get(manner.upper(), manner))
     drop(tree, "type")
-    return left_out(tree, source)
-
-
-def _face(tree: Tree, source: BlockSource) -> list[Fault]:
-    for point in _PEAKS:
-        if point in tree.attrib:
-            rename(tree, point, "attackPeak")
-    drop(tree, *_AFTER_PEAK)
-    _limit_amount(tree)
-    for name, (point, other, sign) in _RAMPS.items():
-        seconds = take_number(tree, name, source, 0.0, _LONGEST)
-        if seconds is not None:
-            tie(tree, point, other, sign * seconds)
     return left_out(tree, source)
 
 
@@ -167,7 +136,7 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], list[Fault]]]] = {
     "interrupt": _interrupt,
     "event": _as_it_is,
     "head": _head,
-    "face": _face,
+    "face": adapt_face,
     "gaze": adapt_gaze,
     "gesture": adapt_gesture,
     "locomotion": _locomotion,

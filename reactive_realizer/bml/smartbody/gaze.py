@@ -68,7 +68,8 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
     rename(tree, "target-pos", "target")
     if "target" in tree.attrib:
         tree.set("target", target_named(tree.get("target", "")))
-    for name in ("time-hint", "fade-in"):
+    times = ("time-hint", "fade-in") if "target" in tree.attrib else ("fade-out",)  # back to the viewer
+    for name in times:
         if time := take_number(tree, name, source, 0.0, _LONGEST):
             tie(tree, "ready", "start", time)
     _limit_speed(tree, source)

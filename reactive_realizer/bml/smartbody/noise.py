@@ -1,5 +1,7 @@
 """Noise of SmartBody: small random turns of joints."""
 
+from typing import Final
+
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.smartbody.attributes import left_out, set_parameter, take, take_number
@@ -7,15 +9,13 @@ from reactive_realizer.bml.smartbody.joints import joint_named
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.errors import Fault
 
-_SCALE, _FREQUENCY = 0.02, 0.03
-"""Usual amplitude, rad, and frequency, Hz."""
-_MOST_SCALE, _MOST_FREQUENCY = 3.0, 100.0
+_PARAMETERS: Final = {"baseamplitude": ("scale", 0.02, 3.0), "basefreq": ("frequency", 0.03, 100.0)}
+"""Amplitude, rad, and frequency, Hz: names of parameters, to the attribute, its usual value and the greatest one."""
 
 
 def adapt_noise(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites noise of one joint, in place, and returns the faults of what is left out."""
-    scale = take_number(tree, "scale", source, 0.0, _MOST_SCALE)
-    frequency = take_number(tree, "frequency", source, 0.0, _MOST_FREQUENCY)
+    values = {name: take_number(tree, written, source, 0.0, most) for name, (written, _, most) in _PARAMETERS.items()}
     if tree.get("enable", "true").lower() != "false":
         take(tree, "enable")
     faults = left_out(tree, source, "enable")
@@ -23,7 +23,10 @@ def adapt_noise(tree: Tree, source: BlockSource) -> list[Fault]:
     tree.set("type", "perlin")
     if "joint" in tree.attrib:
         tree.set("joint", joint_named(tree.get("joint", "")))
-    for axis in "xyz":
-        set_parameter(tree, f"baseamplitude{axis}", f"{_SCALE if scale is None else scale:g}", source)
-        set_parameter(tree, f"basefreq{axis}", f"{_FREQUENCY if frequency is None else frequency:g}", source)
+    known = {child.get("name") for child in tree}
+    for name, value in values.items():
+        _, usual, _ = _PARAMETERS[name]
+        for each in (f"{name}{axis}" for axis in "xyz"):
+            if each not in known:
+                set_parameter(tree, each, f"{usual if value is None else value:g}", source)
     return faults

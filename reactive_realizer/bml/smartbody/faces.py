@@ -1,0 +1,82 @@
+"""Faces of SmartBody: action units with ramps, and visemes."""
+
+from typing import Final
+
+from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.extensions import WHOLE_FACE
+from reactive_realizer.bml.faults import UnknownWord
+from reactive_realizer.bml.names import BMLT
+from reactive_realizer.bml.smartbody.attributes import drop, left_out, limit_amount, rename, take, take_number, tie
+from reactive_realizer.bml.trees import Tree
+from reactive_realizer.errors import Fault, RealizerError
+
+_LONGEST: Final = 60.0
+_PEAKS: Final = ("ready", "strokeStart", "stroke_start", "stroke")
+"""Points of a face at one of which it is complete: the first one that is tied."""
+_AFTER_PEAK: Final = (*_PEAKS, "strokeEnd", "stroke_end")
+_RAMPS: Final = {
+    "duration": ("end", "start", 1.0),
+    "rampup": ("attackPeak", "start", 1.0),
+    "rampdown": ("relax", "end", -1.0),
+}
+"""Times of a face, and the points that they tie: after another one, or before it."""
+_USUAL_AMOUNT: Final = 0.5
+_VISEMES: Final = {
+    word: number
+    for number, words in enumerate(
+        (
+            "_ SIL",
+            "PBM BMP",
+            "FV F",
+            "TH TTEETH",
+            "D TROOF",
+            "KG TBACK",
+            "SHCH SH J",
+            "Z",
+            "L NG N",
+            "R ER",
+            "AH AA OPEN",
+            "EH AE",
+            "IH EE WIDE",
+            "AO OH OW",
+            "W OO UW",
+        )
+    )
+    for word in words.split()
+}
+"""Visemes of SmartBody, to the numbers of those of MPEG-4 (ISO/IEC 14496-2, annex C) that have the same sounds."""
+
+
+def adapt_face(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites a face, in place, and returns the faults of what is left out."""
+    for point in _PEAKS:
+        if point in tree.attrib:
+            rename(tree, point, "attackPeak")
+    drop(tree, *_AFTER_PEAK)
+    amount = limit_amount(tree)
+    for name, (point, other, sign) in _RAMPS.items():
+        seconds = take_number(tree, name, source, 0.0, _LONGEST)
+        if seconds is not None:
+            tie(tree, point, other, sign * seconds)
+    faults = left_out(tree, source)
+    if tree.get("type", "").lower() == "viseme":
+        _show_viseme(tree, amount if "amount" in tree.attrib else _USUAL_AMOUNT, source)
+    return faults
+
+
+def _show_viseme(tree: Tree, amount: float, source: BlockSource) -> None:
+    """Rewrites a viseme as that of MPEG-4.
+
+    Raises:
+        RealizerError: ``bad-attribute``: it is not known.
+    """
+    viseme = take(tree, "viseme")
+    number = _VISEMES.get(viseme.upper())
+    if number is None:
+        known = tuple(_VISEMES)
+        raise source.bad_attribute(tree, "viseme", viseme, RealizerError(UnknownWord(word=viseme, known=known)))
+    drop(tree, "type", "amount", "au", "side")
+    tree.tag = f"{{{BMLT}}}facefap"
+    tree.set("fap", "viseme")
+    tree.set("viseme_select1", str(number))
+    tree.set("viseme_blend", f"{WHOLE_FACE * max(0.0, min(amount, 1.0)):.0f}")
