@@ -1,6 +1,7 @@
 """Speech whose sound a client sends as it is generated."""
 
 from collections.abc import AsyncIterator, Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -275,6 +276,23 @@ async def lips_without_text(
         shown = np.array([[frame.weights[morphs.index(name)] for name in MOUTH] for frame in frames])
         at = np.array([frame.time - start for frame in frames])
     return lambda times: np.array([np.interp(times, at, column) for column in shown.T]).T
+
+
+@pytest.mark.speech
+@pytest.mark.align
+@pytest.mark.parametrize("noise", [0.0, 0.002], ids=["silence", "faint noise"])
+async def test_in_a_pause_of_a_speech_without_a_text_the_mouth_is_at_rest(
+    spoken: Utterance, tmp_path: Path, noise: float
+) -> None:
+    human = tmp_path / "still.toml"
+    human.write_text("[character.alice]\nidle = false\n", encoding="utf-8")
+    word = np.frombuffer(spoken.audio, "<i2")[:22050]
+    pause = np.random.default_rng(1).normal(0.0, noise * 32768, 3 * 22050)
+    sound = np.concatenate([pause[:22050], word, pause, word]).astype("<i2").tobytes()
+    mouth = await lips_without_text(human, replace(spoken, audio=sound, duration=len(sound) / 2 / 22050), 0.1)
+    assert mouth(np.arange(0.0, 0.7, 0.02)).max() < 0.03, "before it speaks"
+    assert mouth(np.arange(2.3, 4.7, 0.02)).max() < 0.03, "between words"
+    assert mouth(np.arange(5.0, 6.0, 0.02)).max() > 0.15, "speaking again"
 
 
 async def test_when_the_search_for_sounds_fails_the_lips_follow_loudness(

@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 
 FRAME: Final = 0.02
 """Duration of a frame, s."""
-_QUIETEST: Final = 0.02
+_QUIETEST: Final = 0.04
 """The lowest level of loud speech, as a share of full scale, so that noise alone is not taken for it."""
+_PAUSE: Final = 0.2
+"""Duration from which what is not audible is a pause, s; the closures of plosives are shorter."""
 AUDIBLE: Final = 0.08
 """Share of the level of loud speech above which a frame is speech."""
 _BRIGHT: Final = 3000.0
@@ -52,6 +54,13 @@ class SoundLevels:
         loud = max(float(np.percentile(self._levels, 95)) if len(self._levels) else 0.0, _QUIETEST)
         # What was heard keeps its loudness, because it may have been shown.
         self.loudness = np.append(self.loudness, self._levels[len(self.loudness) :] / loud)
+
+    @property
+    def pauses(self) -> list[tuple[float, float]]:
+        """The start and end of each pause, s."""
+        quiet = np.concatenate([[False], self.loudness <= AUDIBLE, [False]])
+        edges = np.flatnonzero(quiet[1:] != quiet[:-1]).reshape(-1, 2) * FRAME
+        return [(first, last) for first, last in edges.tolist() if last - first >= _PAUSE - FRAME / 2]
 
 
 class SpokenTime:

@@ -1,7 +1,7 @@
 """Speech whose sound a client streams, as an utterance that grows."""
 
 import logging
-from collections.abc import AsyncGenerator, Awaitable, Sequence
+from collections.abc import AsyncGenerator, Awaitable, Iterator, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -176,5 +176,19 @@ class _GrowingSpeech:
         return self._listening and self._aligner is not None and self._aligner.with_words
 
     def _phonemes(self) -> list[Phoneme]:
-        found = self._aligner.phonemes if self._aligner is not None else []
+        found = [] if self._aligner is None else list(_silent_in(self._levels.pauses, self._aligner.phonemes))
         return [*found, *self._lips.phonemes(found[-1].start + found[-1].duration if found else 0.0)]
+
+
+def _silent_in(pauses: Sequence[tuple[float, float]], phonemes: Sequence[Phoneme]) -> Iterator[Phoneme]:
+    """Sounds without what is found in pauses (start and end, s), such as in noise."""
+    for phoneme in phonemes:
+        at, end = phoneme.start, phoneme.start + phoneme.duration
+        for begin, until in pauses:
+            if begin < end and at < until:
+                if at < begin:
+                    yield replace(phoneme, start=at, duration=begin - at)
+                start, at = max(at, begin), min(until, end)
+                yield Phoneme("", start, at - start)
+        if at < end:
+            yield replace(phoneme, start=at, duration=end - at)
