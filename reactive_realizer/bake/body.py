@@ -3,7 +3,7 @@
 import numpy as np
 
 from reactive_realizer.bake.characters import Character
-from reactive_realizer.bake.further_shapes import parameter_shapes, visemes
+from reactive_realizer.bake.further_shapes import parameter_shapes, parts_of_units, tongue_out, visemes
 from reactive_realizer.bake.makehuman import DECIMETER, BaseMesh, MakeHuman
 from reactive_realizer.bake.mesh import vertex_normals
 from reactive_realizer.bake.mouth import close_lips, place_mouth
@@ -51,7 +51,10 @@ class Body:
         inside = self.is_inside_mouth
         close_lips(self.positions, self.triangles[~inside], self.triangles[inside], self.moved("jawOpen")[:, 1])
         self.normals = vertex_normals(self.positions, self.triangles)
+        units = self.face_units
+        units["tongueOut"] = tongue_out(units["tongueOut"], self.positions, self.groups["helper-tongue"])
         self.shapes = {**self.face_units, **parameter_shapes(data, self.positions, self.groups, self.places)}
+        self.shapes |= parts_of_units(self.face_units, self.positions)
         self.shapes |= visemes(self.face_units)
 
     def _shape(self, base: BaseMesh, character: Character) -> Array:

@@ -12,11 +12,17 @@ _WHOLE += " mouthRight mouthRollLower mouthRollUpper mouthShrugLower mouthShrugU
 ARKIT = (*(f"{name}{side}" for name in _BOTH.split() for side in ("Left", "Right")), *_WHOLE.split())
 """The 52 blend shapes of ARKit (`ARFaceAnchor.BlendShapeLocation`)."""
 
-_SIDED = "earUp earDown earOut earIn eyeConstrict eyeDilation eyeThrust eyeSink noseTip"
+_SIDED = "earUp earDown earOut earIn eyeConstrict eyeDilation eyeThrust eyeSink noseTip nasalDilation nasalConstrict"
+_SIDED += " browInnerUp cheekPuff cheekSuck lipPucker lipSuckUpper mouthShrugLower"
+_SINGLE = "noseTipUp noseTipDown lipPuckerUpper lipPuckerLower"
 _TONGUE = "tongueUp tongueDown tongueLeft tongueRight tongueTipUp tongueTipDown tongueRoll"
 
-BEYOND_ARKIT = (*(f"{name}{side}" for name in _SIDED.split() for side in ("Left", "Right")), *_TONGUE.split())
-"""Shapes that MPEG-4's parameters move and ARKit lacks.
+BEYOND_ARKIT = (
+    *(f"{name}{side}" for name in _SIDED.split() for side in ("Left", "Right")),
+    *_SINGLE.split(),
+    *_TONGUE.split(),
+)
+"""Shapes that MPEG-4's parameters move and ARKit lacks, or has for both sides only.
 
 Their names are those of Unified Expressions (of VRCFaceTracking), where these have such a shape.
 """

@@ -167,6 +167,18 @@ def test_the_visemes_of_oculus_are_the_mouth_shapes_of_lip_sync(path: Path) -> N
         assert mesh.moves[name] == pytest.approx(mesh.displacement(shapes[viseme].morphs), abs=4e-4)
 
 
+def test_a_tongue_that_is_put_out_passes_between_the_teeth_and_over_the_lower_lip(path: Path) -> None:
+    mesh = FaceMesh.read(path)
+    shown = mesh.vertices + mesh.displacement({"jawOpen": 0.43, "tongueOut": 0.9})
+    near = np.abs(mesh.vertices[:, 0]) < 0.008
+    falls = -mesh.moves["jawOpen"][:, 1]
+    lip = shown[near & (falls > 0.85 * falls.max()) & (mesh.vertices[:, 2] > mesh.vertices[falls.argmax(), 2] - 0.015)]
+    tongue = shown[near & (np.linalg.norm(mesh.moves["tongueLeft"], axis=1) > 1e-4)]
+    assert tongue[:, 2].max() > lip[:, 2].max() + 0.01, "it is seen in front of the lip"
+    over = tongue[(tongue[:, 2] > lip[:, 2].min()) & (tongue[:, 2] < lip[:, 2].max())]
+    assert over[:, 1].min() > lip[:, 1].max() - 0.001, "it does not cut the lip"
+
+
 def test_a_dilated_pupil_is_wider_and_both_lids_stay(path: Path) -> None:
     mesh = FaceMesh.read(path)
     for side, sign in (("Left", 1.0), ("Right", -1.0)):
