@@ -13,8 +13,9 @@ from reactive_realizer.binding.keyframe_table import increasing_times, inline_el
 from reactive_realizer.bml.extensions import FaceKeyframe
 from reactive_realizer.bml.vocabulary import FacePart, Side
 from reactive_realizer.engines.face.face_shapes import FaceShapes
+from reactive_realizer.engines.face.faps import FapTable
 from reactive_realizer.engines.face.weights import Weights, added, limited, scaled
-from reactive_realizer.errors import CreationFault, RealizerError
+from reactive_realizer.errors import CreationFault, Fault, RealizerError
 
 _TAG = "FaceInterpolator"
 
@@ -35,12 +36,14 @@ class FaceAnimation:
         morphs: (M,) names.
         rows: (R, M) weights.
         points: sync id -> time, s, in the order of time; from start to end.
+        notes: faults of parts that are left out.
     """
 
     times: tuple[float, ...]
     morphs: tuple[str, ...]
     rows: NDArray[np.float64]
     points: Mapping[str, float]
+    notes: tuple[Fault, ...] = ()
 
     @property
     def phases(self) -> dict[str, float]:
@@ -93,32 +96,47 @@ def read_face_animation(behavior: FaceKeyframe, path: Path | None, shapes: FaceS
         raise asset_error(element, "parts names nothing that moves")
     numbers = number_rows(element, 1 + len(parts))
     times = increasing_times(element, numbers[:, 0])
-    faces = _faces(element, parts, behavior.type, shapes, numbers[:, 1:])
+    faces, notes = _faces(element, parts, behavior.type, shapes, numbers[:, 1:])
     morphs = tuple(dict.fromkeys(morph for face in faces for morph in face))
     rows = np.array([[face.get(morph, 0.0) for morph in morphs] for face in faces])
     inside = sorted((time, sync) for sync, (time, _) in key_points(element, times[0], times[-1]).items())
     points = {"start": times[0], **{sync: time for time, sync in inside}, "end": times[-1]}
-    return FaceAnimation(times, morphs, rows.clip(0.0, 1.0), points)
+    return FaceAnimation(times, morphs, rows.clip(0.0, 1.0), points, notes)
 
 
 def _faces(
     element: XmlElement, parts: list[str], kind: FacePart, shapes: FaceShapes, values: NDArray[np.float64]
-) -> list[Weights]:
-    """The weights of each row.
+) -> tuple[list[Weights], tuple[Fault, ...]]:
+    """The weights of each row, and faults of values that are left out.
 
     Raises:
-        RealizerError: "bad-asset": a part is not known, or moves no blend shape.
+        RealizerError: "bad-asset": a part is not known, or nothing moves a blend shape.
     """
     try:
         if kind is FacePart.FAPS:
             numbers = [shapes.faps.numbers(part)[0] for part in parts]
-            # A recording has a column for every parameter, and zeros for those that do not move.
-            moved = [{n: v for n, v in zip(numbers, row, strict=True) if v} for row in values.tolist()]
-            return [shapes.faps.weights(row) for row in moved]
+            return _parameters(numbers, shapes.faps, values)
         units = [_unit(element, part, kind, shapes) for part in parts]
-        return [limited(added(list(map(scaled, units, row)))) for row in values.tolist()]
+        return [limited(added(list(map(scaled, units, row)))) for row in values.tolist()], ()
     except RealizerError as problem:
         raise asset_error(element, problem.fault.sentence) from problem
+
+
+def _parameters(
+    numbers: list[int], faps: FapTable, values: NDArray[np.float64]
+) -> tuple[list[Weights], tuple[Fault, ...]]:
+    """The weights of parameters in each row, and a fault for each parameter and sign that the avatar cannot show.
+
+    Raises:
+        RealizerError: "fap-without-morph": there is nothing else; or "selecting-fap".
+    """
+    # A recording has a column for every parameter, and zeros for those that do not move.
+    rows = [{n: value for n, value in zip(numbers, row, strict=True) if value} for row in values.tolist()]
+    missing = {fault: None for row in rows for pair in row.items() if (fault := faps.missing(*pair))}
+    shown = [{n: value for n, value in row.items() if not faps.missing(n, value)} for row in rows]
+    if missing and not any(shown):
+        raise RealizerError(next(iter(missing)))
+    return [faps.weights(row) for row in shown], tuple(missing)
 
 
 def _unit(element: XmlElement, part: str, kind: FacePart, shapes: FaceShapes) -> Weights:

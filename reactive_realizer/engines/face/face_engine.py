@@ -33,7 +33,6 @@ from reactive_realizer.engines.face.face_unit import (
 from reactive_realizer.engines.face.living_face import LivingFace
 from reactive_realizer.engines.face.murml_face import murml_face
 from reactive_realizer.engines.face.weights import Weights, added, limited, scaled
-from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -94,7 +93,7 @@ class FaceEngine(DefaultEngine):
             path = animation_path(behavior, self._asset)
             return tuple(self._animation(behavior).points) if path is None else None
         if isinstance(behavior, MurmlFace):
-            return tuple(self._key_frames(behavior)[0].points)
+            return tuple(murml_face(behavior.keyframing, self._library.shapes).points)
         timing = self._shape(behavior).timing
         return SHIFT_TIMING.points if isinstance(behavior, FaceShift) else timing.points
 
@@ -119,8 +118,8 @@ class FaceEngine(DefaultEngine):
             animation = prepared if isinstance(prepared, FaceAnimation) else self._animation(behavior)
             return FaceAnimationUnit(block, behavior, animation, self._release)
         if isinstance(behavior, MurmlFace):
-            animation, notes = self._key_frames(behavior)
-            return FaceAnimationUnit(block, behavior, animation, self._release, notes)
+            animation = murml_face(behavior.keyframing, self._library.shapes)
+            return FaceAnimationUnit(block, behavior, animation, self._release)
         shape = self._shape(behavior)
         if isinstance(behavior, FaceShift):
             return FaceShiftUnit(block, behavior, shape.weights, self._rest)
@@ -167,11 +166,6 @@ class FaceEngine(DefaultEngine):
     def _animation(self, behavior: FaceKeyframe) -> FaceAnimation:
         """That inside of a behavior."""
         return read_face_animation(behavior, None, self._library.shapes)
-
-    def _key_frames(self, behavior: MurmlFace) -> tuple[FaceAnimation, tuple[Fault, ...]]:
-        """The animation of MURML's key frames, and the faults of what is left out of it."""
-        notes: list[Fault] = []
-        return murml_face(behavior.keyframing, self._library.shapes, notes), tuple(notes)
 
     def _weights_at(self, behavior: Behavior, name: str, value: float) -> Weights:
         """Those of an expression with another value of an attribute."""

@@ -9,7 +9,6 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engines.face.face_animation import FaceAnimation
 from reactive_realizer.engines.face.face_timing import EXPRESSION_PHASES, SHIFT_PHASES, SHIFT_TIMING, FaceShape
 from reactive_realizer.engines.face.weights import Weights
-from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.phase_clock import PhaseClock
@@ -132,6 +131,8 @@ class FaceAnimationUnit(FaceUnit):
     Args:
         animation: to play.
         released: is given what is still shown at the end.
+
+    Attributes:
         notes: faults of parts that are left out.
     """
 
@@ -141,13 +142,12 @@ class FaceAnimationUnit(FaceUnit):
         behavior: Behavior,
         animation: FaceAnimation,
         released: Callable[[FaceUnit, GlobalTime], None],
-        notes: tuple[Fault, ...] = (),
     ) -> None:
         start = next(iter(animation.points.values()))
         timing = timing_at({sync: time - start for sync, time in animation.points.items()})
         super().__init__(block, behavior, timing, animation.phases, animation.weights(0.0), released)
         self._animation = animation
-        self.notes = notes
+        self.notes = animation.notes
 
     def follow(self, phase: float) -> None:
         """Sets weights and level for a phase."""

@@ -74,7 +74,7 @@ class Fap:
         unit: name of its unit in `Fapu`, AU for an angle; empty if it selects faces.
         direction: of positive values, a unit vector in the figure's frame; None is away from the middle of what moves.
         positive: weights of morph targets that move the feature point in this direction, of which the scale is
-            measured, or of turns of joints.
+            measured, or of turns of joints. Of several alternatives, an avatar shows the first one that it has.
         negative: those that move it back.
         faces: names of the visemes or expressions that it selects by their index; none for all but two parameters.
     """
@@ -82,12 +82,12 @@ class Fap:
     name: str
     unit: str
     direction: Vec3 | None
-    positive: Weights
-    negative: Weights
+    positive: tuple[Weights, ...]
+    negative: tuple[Weights, ...]
     faces: tuple[str, ...] = ()
 
-    def weights(self, *, positive: bool) -> Weights:
-        """Those for one sign of the value."""
+    def alternatives(self, *, positive: bool) -> tuple[Weights, ...]:
+        """The weights for one sign of the value, the best ones first."""
         return self.positive if positive else self.negative
 
 
@@ -131,6 +131,10 @@ class FapTable:
             raise RealizerError(NoFap(fap=fap, known=tuple(self._numbers)))
         return number
 
+    def name(self, number: int) -> str:
+        """The name of a parameter."""
+        return self._faps[number].name
+
     def faces(self, number: int) -> tuple[str, ...]:
         """The names of the visemes or expressions that a parameter selects; none if it has a value."""
         return self._faps[number].faces
@@ -152,19 +156,27 @@ class FapTable:
                 weights[morph] = max(weights.get(morph, 0.0), min(abs(value) * weight, 1.0))
         return weights
 
+    def missing(self, number: int, value: float) -> FapWithoutMorph | None:
+        """Why the avatar cannot show a value of a parameter that has values; None if it can."""
+        fap, positive = self._faps[number], value >= 0.0
+        if fap.faces or (number, positive) in self._weights:
+            return None
+        usual = fap.alternatives(positive=positive)[-1:]
+        lacking = ", ".join(name for weights in usual for name in weights.keys() - self._shown)
+        return FapWithoutMorph(
+            fap=_named(number, fap),
+            sign="positive" if positive else "negative",
+            missing=f"; the avatar has no {lacking}" if lacking else "",
+        )
+
     def _of(self, number: int, value: float) -> Weights:
         """The weights of a parameter for each unit of its value."""
-        fap, positive = self._faps[number], value >= 0.0
-        name = f"{number} ({fap.name})"
+        fap = self._faps[number]
         if fap.faces:
-            raise RealizerError(SelectingFap(fap=name))
-        found = self._weights.get((number, positive))
-        if found is None:
-            lacking = ", ".join(fap.weights(positive=positive).keys() - self._shown)
-            missing = f"; the avatar has no {lacking}" if lacking else ""
-            sign = "positive" if positive else "negative"
-            raise RealizerError(FapWithoutMorph(fap=name, sign=sign, missing=missing))
-        return found
+            raise RealizerError(SelectingFap(fap=_named(number, fap)))
+        if missing := self.missing(number, value):
+            raise RealizerError(missing)
+        return self._weights[number, value >= 0.0]
 
 
 def _face_of(avatar: Avatar) -> FaceMesh | None:
@@ -190,7 +202,8 @@ def _turning(faps: Mapping[int, Fap], shown: Container[str]) -> dict[tuple[int, 
         for number, fap in faps.items()
         if fap.unit == _ANGLE
         for positive in (True, False)
-        if (weights := fap.weights(positive=positive)) and all(name in shown for name in weights)
+        for weights in reversed(fap.alternatives(positive=positive))
+        if all(name in shown for name in weights)
     }
 
 
@@ -201,14 +214,20 @@ def _per_value(faps: Mapping[int, Fap], mesh: FaceMesh, units: Fapu, face: FaceM
         if fap.unit == _ANGLE:
             continue
         for positive in (True, False):
-            weights = fap.weights(positive=positive)
-            shown = face(weights)
-            if shown and shown.keys() <= mesh.moves.keys():
-                moved = _moved(mesh.displacement(shown), fap.direction, positive=positive)
-                if moved > 0.0:
+            for weights in fap.alternatives(positive=positive):
+                if moved := _moved_by(weights, fap, mesh, face, positive=positive):
                     share = getattr(units, fap.unit) / moved
                     found[number, positive] = {morph: share * weight for morph, weight in weights.items()}
+                    break
     return found
+
+
+def _moved_by(weights: Weights, fap: Fap, mesh: FaceMesh, face: FaceMap, *, positive: bool) -> float:
+    """How far weights move the feature point, m; 0 if the avatar does not show all of them."""
+    shown = face(weights)
+    if not shown or not shown.keys() <= mesh.moves.keys():
+        return 0.0
+    return max(0.0, _moved(mesh.displacement(shown), fap.direction, positive=positive))
 
 
 def _moved(displacement: NDArray[np.float64], direction: Vec3 | None, *, positive: bool) -> float:
@@ -219,10 +238,15 @@ def _moved(displacement: NDArray[np.float64], direction: Vec3 | None, *, positiv
     return float(along.max() if positive else -along.min())
 
 
+def _named(number: int, fap: Fap) -> str:
+    """A parameter in a message."""
+    return f"{number} ({fap.name})"
+
+
 def _fap(path: Path, key: str, entry: Any) -> Fap:
     if not isinstance(entry, dict) or not isinstance(entry.get("name"), str):
         raise bad_entry(path, key, "a facial animation parameter has a name")
-    positive, negative = (read_weights(path, key, entry.get(part, {})) for part in ("positive", "negative"))
+    positive, negative = (_alternatives(path, key, entry.get(part, [])) for part in ("positive", "negative"))
     unit, direction, faces = entry.get("unit", ""), entry.get("direction", "up"), entry.get("faces", [])
     units = (*Fapu.__slots__, _ANGLE)
     if (positive or negative) and unit not in units:
@@ -232,3 +256,7 @@ def _fap(path: Path, key: str, entry: Any) -> Fap:
     if not isinstance(faces, list) or not all(isinstance(face, str) for face in faces):
         raise bad_entry(path, key, "the faces are a list of names")
     return Fap(entry["name"], unit, _DIRECTIONS[direction], positive, negative, tuple(faces))
+
+
+def _alternatives(path: Path, key: str, entry: object) -> tuple[Weights, ...]:
+    return tuple(read_weights(path, key, each) for each in (entry if isinstance(entry, list) else [entry]))

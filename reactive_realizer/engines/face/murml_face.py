@@ -16,7 +16,7 @@ _SHORTEST = 0.04
 """Duration of an animation whose only frame is at its start, s."""
 
 
-def murml_face(keyframing: Keyframing, shapes: FaceShapes, notes: list[Fault]) -> FaceAnimation:
+def murml_face(keyframing: Keyframing, shapes: FaceShapes) -> FaceAnimation:
     """The animation of key frames.
 
     It begins with the face as it is below unless the first frame is to be there at once. The peak of its attack is the
@@ -25,12 +25,14 @@ def murml_face(keyframing: Keyframing, shapes: FaceShapes, notes: list[Fault]) -
     Args:
         keyframing: the key frames.
         shapes: the faces of its avatar.
-        notes: receives a fault for each morph target that the avatar lacks.
+
+    Returns:
+        The animation, with a note for each morph target that the avatar lacks.
 
     Raises:
         RealizerError: "no-morph": the avatar has none of them.
     """
-    morphs = _known(keyframing.frames, shapes, notes)
+    morphs, notes = _known(keyframing.frames, shapes)
     first = keyframing.frames[0]
     times, rows = [0.0], [np.zeros(len(morphs))]
     if first.time == 0.0 or not keyframing.from_current:
@@ -45,11 +47,11 @@ def murml_face(keyframing: Keyframing, shapes: FaceShapes, notes: list[Fault]) -
     if len(times) == 1:
         times, rows = [0.0, _SHORTEST], [rows[0], rows[0]]
     points = {"start": 0.0, "attackPeak": first.time, "relax": times[-1], "end": times[-1]}
-    return FaceAnimation(tuple(times), morphs, np.array(rows).clip(0.0, 1.0), points)
+    return FaceAnimation(tuple(times), morphs, np.array(rows).clip(0.0, 1.0), points, notes)
 
 
-def _known(frames: tuple[Frame, ...], shapes: FaceShapes, notes: list[Fault]) -> tuple[str, ...]:
-    """The morph targets that the avatar has."""
+def _known(frames: tuple[Frame, ...], shapes: FaceShapes) -> tuple[tuple[str, ...], tuple[Fault, ...]]:
+    """The morph targets that the avatar has, and a fault for each other one."""
     known: dict[str, None] = {}
     faults: dict[str, Fault] = {}
     for frame in frames:
@@ -60,8 +62,7 @@ def _known(frames: tuple[Frame, ...], shapes: FaceShapes, notes: list[Fault]) ->
                 faults.setdefault(name, refused.fault.located(frame.location.line, frame.location.column))
     if not known:
         raise RealizerError(next(iter(faults.values())))
-    notes += faults.values()
-    return tuple(known)
+    return tuple(known), tuple(faults.values())
 
 
 def _row(frame: Frame, morphs: tuple[str, ...], before: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -77,9 +77,9 @@ def test_a_value_moves_the_feature_point_by_so_many_units(
 
 def test_parameters_that_share_a_blend_shape_do_not_move_it_twice() -> None:
     table = table_of(AVATARS[0])
-    left, both = table.weights({31: 60}), table.weights({31: 60, 32: 60})
-    assert left == both
-    assert 0.0 < both["browInnerUp"] < 1.0
+    middle, outer = table.weights({4: 60}), table.weights({4: 60, 51: 60})
+    assert middle == outer
+    assert 0.0 < outer["mouthRollUpper"] < 1.0
 
 
 async def test_a_parameter_plays_by_number_and_by_name(pilot: RealizerPilot) -> None:
@@ -194,6 +194,48 @@ async def test_keyframes_have_values_but_select_no_faces(pilot: RealizerPilot) -
     assert "1 (viseme) has no value of its own" in warning
 
 
+async def test_a_recording_plays_without_the_values_that_the_avatar_cannot_show_which_is_told_once(
+    pilot: RealizerPilot,
+) -> None:
+    rows = "0 0 0  0.3 300 -4  0.6 200 -9  1 0 0"
+    frames = f'<FaceInterpolator parts="open_jaw squeeze_l_eyebrow">{rows}</FaceInterpolator>'
+    pilot.block("b", f'<bmlt:facekeyframe id="f" type="FAPS">{frames}</bmlt:facekeyframe>')
+    await pilot.advance(1.5)
+    assert weight(pilot, "jawOpen").max() > 0.1
+    assert pilot.feedback.status("b") == "DONE"
+    (warning,) = [each.text for each in pilot.feedback.of("warningFeedback")]
+    assert "negative values of the facial animation parameter 37 (squeeze_l_eyebrow)" in warning
+
+
+# --- the table of the standard
+
+BOTH_WAYS = """
+MNS down 4 8 9 51 55 56; MNS up 5 10 11 12 13 18 44 46 52 57 58 59 60; MW left 6 53; MW right 7 15 43 54
+MNS forward 16 17; MW forward 45; IRISD down 19 20; IRISD up 21 22; IRISD outward 29 30; ES forward 27 28
+ENS up 31 32 33 34 35 36 63 65 66; ES right 37 40; ES left 38 39; ENS left 61 67; ENS right 62 64 68
+"""
+"""Units and directions of positive values of the parameters that move both ways (ISO/IEC 14496-2, table C.1)."""
+
+ONE_WAY = "MNS down 3; MNS forward 14; ENS up 41 42"
+"""Those of parameters that have no negative values."""
+
+ANGLES = {23, 24, 25, 26, 47, 48, 49, 50}
+
+
+def test_units_and_directions_are_those_of_the_standard() -> None:
+    expected = {
+        int(number): (unit, direction)
+        for group in f"{BOTH_WAYS.strip()};{ONE_WAY}".replace("\n", ";").split(";")
+        for unit, direction, *numbers in [group.split()]
+        for number in numbers
+    }
+    faps = json.loads(TABLE.read_text(encoding="utf-8"))["faps"]
+    found = {int(number): (fap.get("unit"), fap.get("direction")) for number, fap in faps.items()}
+    assert {number: pair for number, pair in found.items() if number > 2} == expected | dict.fromkeys(
+        ANGLES, ("AU", None)
+    )
+
+
 # --- what the avatar has
 
 
@@ -201,6 +243,60 @@ async def test_keyframes_have_values_but_select_no_faces(pilot: RealizerPilot) -
 def test_all_parameters_are_played_on_the_avatars_of_the_package(avatar: Avatar) -> None:
     table = table_of(avatar)
     assert [number for number in range(3, 69) if not _plays(table, number, 100.0)] == []
+    one_way, without_shape = {3, 14, 41, 42, 47}, {18, 21, 22, 37, 38, 45}
+    assert {number for number in range(3, 69) if not _plays(table, number, -100.0)} == one_way | without_shape
+
+
+PAIRS = [
+    pair
+    for first in (6, 8, 10, 12, 19, 21, 27, 29, 31, 33, 35, 37, 39, 41, 53, 55, 57, 59, 61, 65, 67)
+    for pair in ((first, LEFT), (first + 1, RIGHT))
+]
+
+
+@pytest.mark.parametrize("avatar", AVATARS, ids=["female", "male"])
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["positive", "negative"])
+def test_a_parameter_of_one_side_moves_only_this_side(avatar: Avatar, sign: float) -> None:
+    table, mesh = table_of(avatar), face(avatar)
+    moved = {}
+    for number, side in PAIRS:
+        if _plays(table, number, sign):
+            away = np.linalg.norm(mesh.displacement(map_of(avatar)(table.weights({number: 30.0 * sign}))), axis=1)
+            beside = mesh.vertices @ np.array(side)
+            # Beyond the middle, the skin follows: most of all with ARKit's mouthLowerDown.
+            moved[number] = bool(away[beside < -0.02].max() < 0.25 * away[beside > 0.0].max())
+    assert moved == dict.fromkeys(moved, True)
+    assert len(moved) == (42 if sign > 0.0 else 36)
+
+
+@pytest.mark.parametrize("avatar", AVATARS, ids=["female", "male"])
+@pytest.mark.parametrize("value", [20.0, -20.0])
+def test_a_raised_nose_is_raised_at_its_tip_and_the_brows_stay(avatar: Avatar, value: float) -> None:
+    mesh = face(avatar)
+    moved = mesh.displacement(table_of(avatar).weights({63: value}))
+    tip = mesh.vertices[:, 2].argmax()
+    up = value * Fapu.measured(avatar, mesh, map_of(avatar)).ENS
+    assert moved[tip, 1] == pytest.approx(up, rel=0.15)
+    assert np.abs(moved[mesh.vertices[:, 1] > mesh.vertices[tip, 1] + 0.03]).max() < 1e-4
+
+
+@pytest.mark.parametrize(("number", "upper", "lower"), [(16, 0.0, 1.0), (17, 1.0, 0.0)])
+def test_each_lip_is_pushed_alone(number: int, upper: float, lower: float) -> None:
+    mesh = face(AVATARS[0])
+    pushed = mesh.displacement(table_of(AVATARS[0]).weights({number: 200.0}))[:, 2]
+    both = mesh.moves["mouthPucker"][:, 2]
+    falls = -mesh.moves["jawOpen"][:, 1]
+    lips = both > 0.9 * both.max()
+    share = pushed / pushed.max()
+    assert share[lips & (falls < 0.1 * falls.max())].mean() == pytest.approx(upper, abs=0.15)
+    assert share[lips & (falls > 0.8 * falls.max())].mean() == pytest.approx(lower, abs=0.15)
+
+
+def test_without_shapes_of_one_side_the_usual_ones_move_both(tmp_path: Path) -> None:
+    avatar = Avatar.read(with_morph("noseSneerRight", tmp_path))
+    table = table_of(avatar)
+    names = {number: set(table.weights({number: 20.0})) for number in (9, 32, 39, 61)}
+    assert names == {9: {"mouthRollUpper"}, 32: {"browInnerUp"}, 39: {"cheekPuff"}, 61: {"noseSneerLeft"}}
 
 
 def test_without_shapes_beyond_those_of_arkit_thirteen_parameters_name_what_is_missing(tmp_path: Path) -> None:
