@@ -1,49 +1,13 @@
 """The entries of the gallery: every lexeme that can be played, and every motion unit."""
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 from itertools import product
 
-from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
-from reactive_realizer.binding.mouth_shapes import SILENCE, VISEMES
-from reactive_realizer.binding.viseme_binding import VisemeBinding
-from reactive_realizer.bml.names import BML_EXT, MURML, OWN
-from reactive_realizer.embodiment.avatar import Avatar
+from gallery_entry import Entry
+from gallery_faces import face_strips
+
+from reactive_realizer.bml.names import MURML, OWN
 from reactive_realizer.engine.lexicon import LexiconEntry
-from reactive_realizer.engines.face.expressions import Expressions
-
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """One strip.
-
-    Attributes:
-        name: of its file and of its block.
-        behaviors: as BML.
-        whole_body: whether the picture includes the feet.
-        seconds: minimum duration, s, for motion that continues after the end of the block.
-        push: force on the trunk for 0.2 s, N, one second after the start; None for no push.
-        face: whether the picture shows the face only.
-        mouth: whether the picture shows the mouth only.
-        avatar: name of its file without the suffix.
-        caption: is shown below the picture, if it is not empty.
-    """
-
-    name: str
-    behaviors: str
-    whole_body: bool = False
-    seconds: float = 0.0
-    push: tuple[float, float, float] | None = None
-    face: bool = False
-    mouth: bool = False
-    avatar: str = "female"
-    caption: str = ""
-
-    @property
-    def block(self) -> str:
-        """The block that plays it."""
-        namespaces = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
-        return f'<bml {namespaces} id="{self.name}">{self.behaviors}</bml>'
 
 
 def entries(lexicon: Iterable[LexiconEntry]) -> list[Entry]:
@@ -53,14 +17,7 @@ def entries(lexicon: Iterable[LexiconEntry]) -> list[Entry]:
     found = [
         strip for entry in playing for strip in _strips(entry) if entry.constraints or entry.lexeme not in own_modes
     ]
-    return [*found, *_action_units(), *_FACES, *_visemes(), *_expressive(), *_UNITS]
-
-
-def _action_units() -> Iterator[Entry]:
-    face = PACKAGE_ASSETS / "face"
-    for number, unit in Expressions.read(face / "lexemes.json", face / "action_units.json").units.items():
-        behavior = f'<faceFacs xmlns="{BML_EXT}" id="f" au="{number}" amount="1"/>'
-        yield Entry(f"facefacs-{number:02}", behavior, face=True, caption=unit.name)
+    return [*found, *face_strips(), *_expressive(), *_UNITS]
 
 
 def _expressive() -> Iterator[Entry]:
@@ -75,31 +32,6 @@ def _expressive() -> Iterator[Entry]:
         parameter = f'<bmlt:parameter name="{name}" value="{value}"/>'
         behavior = f'<gesture id="g" lexeme="{lexeme}" mode="{mode}">{parameter}</gesture>'
         yield Entry(f"expressivity-{name.lower()}-{value + 2}", behavior, seconds=seconds)
-
-
-def _visemes() -> Iterator[Entry]:
-    """Seven visemes in each strip, one in each of its pictures."""
-    names = [viseme for viseme in VISEMES if viseme != SILENCE]
-    for avatar, first in product(("female", "male"), (0, 7)):
-        shown = names[first : first + 7]
-        behavior = f'<bmlt:facekeyframe id="k">{_held(avatar, shown)}</bmlt:facekeyframe>'
-        name = f"visemes-{avatar}-{'-'.join(shown[:: len(shown) - 1])}".lower()
-        yield Entry(name, behavior, mouth=True, avatar=avatar, caption=f"the visemes {', '.join(shown)}")
-
-
-def _held(avatar: str, visemes: Sequence[str]) -> str:
-    """Keyframes in which each viseme is held in its second."""
-    assets = Assets()
-    binding = VisemeBinding.read((), Avatar.read(assets(f"avatars/{avatar}.glb")).morphs, assets)
-    morphs = sorted({morph for viseme in visemes for morph in binding.shapes[viseme].morphs})
-    rows = [
-        " ".join(f"{value:g}" for value in (time, *(binding.shapes[viseme].morphs.get(each, 0) for each in morphs)))
-        for second, viseme in enumerate(visemes)
-        for time in (second + 0.2, second + 0.8)
-    ]
-    zeros = " 0" * len(morphs)
-    content = "\n".join([f"0{zeros}", *rows, f"{len(visemes)}{zeros}"])
-    return f'<FaceInterpolator xmlns="" parts="{" ".join(morphs)}">\n{content}\n</FaceInterpolator>'
 
 
 def _strips(entry: LexiconEntry) -> Iterator[Entry]:
@@ -124,39 +56,6 @@ def _pose(lexeme: str) -> str:
     part = {"ARMS": "ARMS", "LEGS": "LEGS"}.get(lexeme.partition("_")[0], "WHOLEBODY")
     return f'<stance type="STANDING"/><pose part="{part}" lexeme="{lexeme}"/>'
 
-
-_SIGH = """
-<FaceInterpolator xmlns="" parts="1 26 43">
-  0    0    0    0
-  0.8  0.6  0.7  0.3
-  1.4  0.8  0.2  0.9
-  2.2  0    0    0
-</FaceInterpolator>
-""".strip()
-
-_FACES = (
-    Entry("facekeyframe", f'<bmlt:facekeyframe id="k" type="FACS">{_SIGH}</bmlt:facekeyframe>', face=True),
-    Entry("facefap-jaw", '<bmlt:facefap id="f" fap="open_jaw" value="900"/>', face=True),
-    Entry("facefap-corners", '<bmlt:facefap id="f" fap="raise_l_cornerlip raise_r_cornerlip" value="450"/>', face=True),
-    Entry("facefap-brow", '<bmlt:facefap id="f" fap="raise_l_m_eyebrow raise_l_o_eyebrow" value="130"/>', face=True),
-    Entry("facefap-eyes", '<bmlt:facefap id="f" fap="yaw_l_eyeball yaw_r_eyeball" value="25000"/>', face=True),
-    Entry("facefap-head", '<bmlt:facefap id="f" fap="head_yaw head_roll" value="20000"/>', face=True),
-    *(
-        Entry(
-            f"faceplutchik-{name}",
-            f'<bmlt:faceplutchik id="f" angle="{angle}" activation="{activation}"/>',
-            face=True,
-        )
-        for name, angle, activation in (
-            ("serenity", 315, 3.0),
-            ("ecstasy", 315, 7.0),
-            ("love", 337.5, 5.0),
-            ("awe", 67.5, 6.0),
-            ("remorse", 157.5, 5.0),
-            ("contempt", 202.5, 5.0),
-        )
-    ),
-)
 
 _CLIP = """
 <SkeletonInterpolator xmlns="" rotationEncoding="axisangles" parts="skullbase r_elbow" encoding="R">

@@ -17,7 +17,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from aiohttp import web
-from gallery_entries import Entry, entries
+from gallery_entries import entries
+from gallery_entry import Entry
 from PIL import Image, ImageChops
 from playwright.async_api import Page, ViewportSize, async_playwright
 
@@ -32,8 +33,13 @@ from reactive_realizer.server.live_scene import LiveScene
 from reactive_realizer.server.security import Security
 
 GALLERY = Path(__file__).parent / "gallery"
-MOUTH = {"female": 0.56, "male": 0.62}
-"""Height of the mouth in the picture of a face, as a share of it from above."""
+CLOSEUPS = {
+    ("mouth", "female"): (4.4, 0.56),
+    ("mouth", "male"): (4.4, 0.62),
+    ("eyes", "female"): (3.6, 0.40),
+    ("nose", "male"): (4.4, 0.54),
+}
+"""For a part of the face of an avatar, how large the face is, and the height of the part, as a share from above."""
 MOMENTS = 7
 FRAME = 0.02
 """Time between two frames, s."""
@@ -46,7 +52,8 @@ OTHERS = "Other motions"
 SECTIONS = {
     "Face lexemes": ("facelexeme",),
     "Action units": ("facefacs",),
-    "Further faces": ("facefap", "faceplutchik", "facekeyframe"),
+    "MPEG-4 parameters": ("faps", "facefap"),
+    "Further faces": ("faceplutchik", "facekeyframe"),
     "Visemes": ("visemes",),
     "Head": ("head", "headdirectionshift"),
     "Gaze": ("gaze", "gazeshift"),
@@ -81,8 +88,8 @@ class Framing:
     @classmethod
     def of(cls, entry: Entry) -> "Framing":
         """That of an entry."""
-        if entry.mouth:
-            return cls("face", (150, 120), 4.4, MOUTH[entry.avatar])
+        if entry.closeup:
+            return cls("face", (150, 120), *CLOSEUPS[entry.closeup, entry.avatar])
         if entry.face:
             return cls("face", (165, 180), 1.35, 0.47)
         return cls("full", (260, 300)) if entry.whole_body else cls("upper", (300, 240))
@@ -134,13 +141,14 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
         push = Push(next(iter(live.realizer.characters)), "vl5", entry.push, 0.2)
         live.realizer.put(push, GlobalTime(begun + PUSH_AFTER))
     pictures = []
-    for i in range(MOMENTS):
-        moment = begun + (end - begun) * (i + 0.5) / MOMENTS
+    count = entry.held or MOMENTS
+    for i in range(count):
+        moment = begun + (end - begun) * (i + 0.5) / count
         while live.realizer.time < moment + FRAME:
             await live.step(await anext(ticks))
         pictures.append(await camera.picture(moment))
     width, height = camera.framing.size
-    whole = Image.new("RGB", (width * MOMENTS, height))
+    whole = Image.new("RGB", (width * count, height))
     for i, picture in enumerate(pictures):
         whole.paste(picture, (i * width, 0))
     return whole
@@ -234,7 +242,7 @@ def index(all_entries: Iterable[Entry]) -> str:
     lines = [
         "# Gallery",
         "",
-        "Every lexeme, action unit, viseme and motion unit at seven moments from start to end.",
+        "Every lexeme, action unit, MPEG-4 parameter, viseme and motion unit at seven moments from start to end.",
         "`make gallery` generates this page.",
         "",
         *(f"- [{section}](#{section.lower().replace(' ', '-')}): {len(own)}" for section, own in by_section.items()),
@@ -255,7 +263,7 @@ def _lines(entry: Entry) -> list[str]:
     lines = [f"### {entry.name}", "", f"![{entry.name}]({entry.name}.webp)", ""]
     if entry.caption:
         lines += [entry.caption, ""]
-    if not entry.mouth:  # its keyframes are long
+    if not entry.held:  # its keyframes are long
         lines += ["```xml", entry.behaviors, "```", ""]
     if entry.push is not None:
         lines += [f"pushed with {max(map(abs, entry.push)):g} N for 0.2 s", ""]

@@ -17,7 +17,7 @@ from reactive_realizer.testing.pilot import open_pilot
 from .conftest import DOCS, page
 
 if TYPE_CHECKING:
-    from gallery_entries import Entry
+    from gallery_entry import Entry
 
 SCENE = SceneOptions(voice="text")
 
