@@ -118,9 +118,7 @@ def parts_of_units(units: Mapping[str, Array], positions: Array) -> dict[str, Ar
 
 def _halves(name: str, moves: Array, positions: Array) -> dict[str, Array]:
     """Both halves of a shape, with names that end in the side."""
-    return {
-        name + side: smoothstep(-_MIDDLE, _MIDDLE, sign * positions[:, 0])[:, None] * moves for side, sign in SIDES
-    }
+    return {name + side: smoothstep(-_MIDDLE, _MIDDLE, sign * positions[:, 0])[:, None] * moves for side, sign in SIDES}
 
 
 def tongue_out(unit: Array, positions: Array, tongue: Indices) -> Array:
