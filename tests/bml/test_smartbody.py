@@ -417,15 +417,15 @@ def test_action_units_with_ids_stay_apart() -> None:
 
 def test_noise_turns_each_of_its_joints_and_persists() -> None:
     noises = behaviors('<sbm:noise id="n" sbm:joint-range="l_shoulder spine3" sbm:scale="0.1" sbm:frequency="0.5"/>')
-    assert [(each.joint, each.persistent) for each in noises if isinstance(each, Noise)] == [
-        ("l_shoulder", True),
-        ("vt6", True),
-    ]
-    assert noises[0].id == "n"
-    assert noises[1].parameters == {
-        **{f"baseamplitude{axis}": "0.1" for axis in "xyz"},
-        **{f"basefreq{axis}": "0.5" for axis in "xyz"},
+    assert {each.joint: each.id for each in noises if isinstance(each, Noise) and each.persistent} == {
+        "l_shoulder": "n",
+        "vt6": "noise1",
     }
+    for noise in noises:
+        assert noise.parameters == {
+            **{f"baseamplitude{axis}": "0.1" for axis in "xyz"},
+            **{f"basefreq{axis}": "0.5" for axis in "xyz"},
+        }
 
 
 def test_noise_with_an_end_ends() -> None:
@@ -440,7 +440,7 @@ def test_noise_that_is_switched_off_is_told() -> None:
 
 def test_joints_of_a_gesture_have_noise_while_it_holds() -> None:
     noise_of = 'sbm:joint-range="l_shoulder l_elbow" sbm:scale="0.04"'
-    gesture, *noises = behaviors(f'<gesture id="g" lexeme="BEAT" relax="5" {noise_of}/>')
+    *noises, gesture = behaviors(f'<gesture id="g" lexeme="BEAT" relax="5" {noise_of}/>')
     assert isinstance(gesture, Gesture)
     assert sorted(each.joint for each in noises if isinstance(each, Noise)) == ["l_elbow", "l_shoulder"]
     for noise in noises:
@@ -457,6 +457,20 @@ def test_a_reach_may_walk_to_its_target_first() -> None:
     assert (walk.target, str(walk.syncs["start"]), dict(walk.parameters)) == ("box", "2", {"distance": "0.4"})
     assert isinstance(reach, Pointing)
     assert str(reach.syncs["start"]) == f"{walk.id}:end"
+
+
+def test_a_way_along_several_points_is_several_ways() -> None:
+    ways = behaviors('<locomotion id="l" target="0 1 1 1 1 -.5" speed="2" facing="0" start="3"/><wait start="l:end"/>')
+    read = {way.id: way for way in ways if isinstance(way, Locomotion)}
+    assert {way.target: str(way.syncs["start"]) for way in read.values()} == {
+        "0 1": "3",
+        "1 1": "locomotion1:end",
+        "1 -.5": "locomotion2:end",
+    }
+    assert read["l"].target == "1 -.5"
+    assert dict(read["l"].parameters) == {"speed": "2", "facing": "0"}
+    assert dict(read["locomotion1"].parameters) == {"speed": "2"}
+    assert len(behaviors('<locomotion target="1 0 1"/>')) == len(behaviors('<locomotion target="a b c d"/>')) == 1
 
 
 def test_a_gesture_with_its_stroke_at_0_starts_as_early_as_possible() -> None:

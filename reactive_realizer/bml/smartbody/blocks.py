@@ -1,5 +1,6 @@
 """Behaviors of SmartBody that are several here, or one together, in a block before its behaviors are read."""
 
+import re
 from collections.abc import Callable, Iterator
 from itertools import groupby
 from typing import Final
@@ -14,6 +15,9 @@ from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 _JOINTS: Final = "joint-range"
 _WITHIN_REACH: Final = "0.4"
 """Distance from a target to which a character walks to reach it, m."""
+_NUMBER: Final = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)")
+_OF_THE_LAST_WAY: Final = frozenset({"id", "end", "facing", "proximity"})
+"""Attributes of a way along several points that only the way to the last one has."""
 _OF_ONE_FACE: Final = frozenset({"type", "au", "side", "amount"})
 """Attributes in which faces differ that are one."""
 
@@ -23,7 +27,7 @@ def regroup(block: Tree, source: BlockSource) -> None:
 
     - Action units with the same times become one face, so that they move the mouth together.
     - Noise of several joints becomes noise of each, and noise in the hold of a gesture a behavior of its own.
-    - A reach with a walk becomes a walk and a reach.
+    - A reach with a walk becomes a walk and a reach, and a way along several points becomes several ways.
     """
     for holder in [block, *block.iter("required")]:
         _join_faces(holder, source)
@@ -34,7 +38,7 @@ def regroup(block: Tree, source: BlockSource) -> None:
                 for added in split(tree, source):
                     source.place(added, tree)
                     _give_id(added, source)
-                    tree.addnext(added)
+                    tree.addprevious(added)  # behaviors are planned in this order
 
 
 def _give_id(tree: Tree, source: BlockSource) -> None:
@@ -104,8 +108,28 @@ def _split_reach(tree: Tree, source: BlockSource) -> Iterator[Tree]:
         yield walk
 
 
+def _split_way(tree: Tree, source: BlockSource) -> Iterator[Tree]:
+    """The ways to all points of a path but the last one."""
+    numbers = tree.get("target", "").split()
+    if len(numbers) < 4 or len(numbers) % 2 or not all(map(_NUMBER.fullmatch, numbers)):
+        return
+    *points, last = (f"{x} {z}" for x, z in zip(numbers[::2], numbers[1::2], strict=True))
+    tree.set("target", last)
+    start = take(tree, "start")
+    attributes = {str(name): str(value) for name, value in tree.items() if name not in _OF_THE_LAST_WAY}
+    for point in points:
+        way = etree.Element(tree.tag, {**attributes, "target": point})
+        if start:
+            way.set("start", start)
+        _give_id(way, source)
+        start = f"{way.get('id')}:end"
+        yield way
+    tree.set("start", start)
+
+
 _SPLITS: Final[dict[str, Callable[[Tree, BlockSource], Iterator[Tree]]]] = {
     "noise": _split_noise,
     "gesture": _split_gesture,
     "reach": _split_reach,
+    "locomotion": _split_way,
 }

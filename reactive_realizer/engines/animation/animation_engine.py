@@ -250,7 +250,9 @@ class AnimationEngine(DefaultEngine):
         return posture_after(self._rest.posture, planned)
 
     def _expected_place(self) -> Place:
-        planned = (unit.motion for unit in (*self.player.units, *self._drafts) if isinstance(unit, AnimationUnit))
+        planned = (
+            unit.motion for unit in (*self.player.units, *self._drafts.values()) if isinstance(unit, AnimationUnit)
+        )
         places = [motion.place for motion in planned if isinstance(motion, LocomotionMotionUnit)]
         return places[-1] if places else self._humanoid.place
 

@@ -91,6 +91,15 @@ async def test_a_figure_stays_where_it_has_gone(pilot: RealizerPilot) -> None:
     assert (eyes[0], eyes[2]) == pytest.approx((1.5, 2.0), abs=0.15)
 
 
+async def test_ways_of_one_block_begin_where_those_before_end_and_are_planned_so(pilot: RealizerPilot) -> None:
+    pilot.block("b", '<locomotion id="to" target="0 2"/><locomotion id="back" target="0 0" start="to:end"/>')
+    await pilot.advance(9)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("b:back:end") - told.time("b:back:start") > 2.0
+    assert np.hypot(*np.array(pilot.bodies()[-1].root)[[0, 2]]) < 0.1
+
+
 async def test_a_second_way_begins_where_the_first_one_ends_and_is_planned_so(pilot: RealizerPilot) -> None:
     pilot.block("a", go("0 2"))
     pilot.block("b", go("0 3"), composition="APPEND")
