@@ -1,0 +1,82 @@
+"""What SmartBody's elements do in frames."""
+
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from reactive_realizer.testing.pilot import RealizerPilot
+
+from .conftest import OpenStill
+
+CLIP = """<SkeletonInterpolator parts="l_shoulder" rotationEncoding="quaternions" encoding="R">
+0 1 0 0 0
+0.5 0.5 -0.866 0 0
+1 1 0 0 0
+</SkeletonInterpolator>"""
+
+
+def act(inside: str) -> str:
+    return f"<act><bml>{inside}</bml></act>"
+
+
+def weights(pilot: RealizerPilot, morph: str) -> npt.NDArray[np.float64]:
+    """The weight of a morph target in each frame."""
+    (character,) = pilot.realizer.characters.values()
+    number = character.humanoid.avatar.morphs.index(morph)
+    return np.array([frame.weights[number] for frame in pilot.frames["alice"]])
+
+
+def turns(pilot: RealizerPilot, joint: str) -> npt.NDArray[np.float64]:
+    """The rotation of a joint in each frame, (F, 4)."""
+    return np.array([body.rotation(joint) for body in pilot.bodies()])
+
+
+async def test_action_units_of_the_mouth_are_shown_together(open_still: OpenStill) -> None:
+    units = ("10", "26", "1_left")
+    async with open_still() as pilot:
+        pilot.perform(act("".join(f'<face type="facs" au="{unit}" amount="0.8" end="3"/>' for unit in units)))
+        await pilot.advance(3)
+    assert pilot.feedback.warnings == []
+    for morph in ("jawOpen", "mouthUpperUpLeft", "browInnerUp"):
+        assert weights(pilot, morph).max() > 0.2
+
+
+async def test_noise_goes_on_after_everything_else(open_still: OpenStill) -> None:
+    async with open_still() as pilot:
+        pilot.perform(act('<sbm:noise sbm:joint-range="l_shoulder" sbm:scale="0.3" sbm:frequency="1"/>'))
+        await pilot.advance(8)
+        shown = turns(pilot, "l_shoulder")
+        still = turns(pilot, "r_shoulder")
+    assert np.ptp(shown[300:], axis=0).max() > 0.02
+    assert np.ptp(still[300:], axis=0).max() < 0.005
+
+
+async def test_a_character_walks_to_a_thing_picks_it_up_and_puts_it_down(open_still: OpenStill) -> None:
+    async with open_still() as pilot:
+        pilot.move("cup", (0.0, 1.1, 1.5))
+        pilot.perform(act('<sbm:reach sbm:action="pick-up" sbm:use-locomotion="true" target="cup"/>'))
+        await pilot.advance(6)
+        carried = pilot.realizer.world.position("cup")
+        pilot.perform(act('<sbm:reach sbm:action="put-down" sbm:target-pos="-0.2 1.1 1.5"/>'))
+        await pilot.advance(4)
+    assert pilot.feedback.warnings == []
+    assert carried is not None
+    assert carried[1] < 0.9
+    assert pilot.realizer.world.position("cup") == (-0.2, 1.1, 1.5)
+
+
+@pytest.mark.parametrize("element", ["animation", "gesture", "blend", "sbm:states"])
+async def test_what_names_a_clip_plays_the_file_of_that_name(
+    open_still: OpenStill, tmp_path: Path, element: str
+) -> None:
+    folder = tmp_path / "clips"
+    folder.mkdir()
+    (folder / "Brad@Raise.xml").write_text(CLIP)
+    async with open_still(folder) as pilot:
+        pilot.perform(act(f'<{element} name="Brad@Raise"/>'))
+        await pilot.advance(2)
+        raised = turns(pilot, "l_shoulder")
+    assert pilot.feedback.warnings == []
+    assert np.abs(raised[:, 1]).max() > 0.5
