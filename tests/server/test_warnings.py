@@ -42,7 +42,7 @@ MISTAKES = {
     ),
     '<locomotion id="l" target="viewer" manner="WALC"/>': ("b:l", "no-manner", "there is no manner 'WALC'", "WALK"),
     '<locomotion id="l" target="viewre"/>': ("b:l", "no-target", "there is no target 'viewre'", "viewer"),
-    '<dance xmlns="urn:f" id="d"/>': ("b:d", "foreign-not-supported", "<dance> of urn:f is not supported", None),
+    '<dance xmlns="urn:f" id="d"/>': ("b:d", "foreign-not-supported", "<dance> of urn:f is left out", None),
     '<wait id="w" duration="1" xmlns:f="urn:f" f:mood="1"/>': (
         "b:w", "foreign-attribute", "the attribute mood of urn:f has no effect", None,
     ),
