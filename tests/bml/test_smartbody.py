@@ -207,6 +207,13 @@ def test_a_direction_is_an_offset_by_an_angle_of_30_degrees_unless_it_says_other
     assert (read.offset_direction, read.offset_angle) == (offset, angle)
 
 
+def test_a_direction_that_is_none_drops_the_gaze() -> None:
+    for direction in ("POLAR 1.2.3", "POLAR", "POLAR nan", "sideways"):
+        (sentence,) = told(f'<gaze target="x" direction="{direction}"/>')
+        assert sentence.startswith(f"offsetDirection='{direction}' of <gaze>: not one of RIGHT")
+    assert gaze('direction="POLAR 1e300"').offset_angle == 30.0
+
+
 def test_an_angle_without_a_direction_has_no_effect_as_in_smartbody() -> None:
     assert gaze('angle="40"').offset_angle == 0.0
 
@@ -426,6 +433,21 @@ def test_noise_turns_each_of_its_joints_and_persists() -> None:
             **{f"baseamplitude{axis}": "0.1" for axis in "xyz"},
             **{f"basefreq{axis}": "0.5" for axis in "xyz"},
         }
+
+
+def test_one_behavior_becomes_no_more_than_a_limit_of_them() -> None:
+    many = " ".join(f"joint{number}" for number in range(10_000))
+    assert len(behaviors(f'<sbm:noise sbm:joint-range="{many}" id="n"/>')) == 50
+    assert len(behaviors(f'<locomotion target="{"1 2 " * 5_000}"/>')) == 1
+
+
+def test_behaviors_that_are_joined_or_split_stay_required() -> None:
+    own = block(
+        '<act><bml><required><face type="facs" au="1"/><face type="facs" au="2"/><sbm:noise sbm:joint-range="a b"/>'
+        "</required></bml></act>"
+    )
+    assert [type(each) for each in own.behaviors] == [Face, Noise, Noise]
+    assert all(each.required for each in own.behaviors)
 
 
 def test_noise_with_an_end_ends() -> None:

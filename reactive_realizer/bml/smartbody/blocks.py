@@ -1,8 +1,8 @@
 """Behaviors of SmartBody that are several here, or one together, in a block before its behaviors are read."""
 
 import re
-from collections.abc import Callable, Iterator
-from itertools import groupby
+from collections.abc import Callable, Iterable, Iterator
+from itertools import groupby, islice
 from typing import Final
 
 from lxml import etree
@@ -15,9 +15,15 @@ from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 _JOINTS: Final = "joint-range"
 _WITHIN_REACH: Final = "0.4"
 """Distance from a target to which a character walks to reach it, m."""
+_MOST: Final = 50
+"""Limit on the behaviors that one is split into, beside those of a block."""
 _NUMBER: Final = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)")
-_OF_THE_LAST_WAY: Final = frozenset({"id", "end", "facing", "proximity"})
-"""Attributes of a way along several points that only the way to the last one has."""
+_OF_NOISE: Final = tuple(
+    name for plain in ("scale", "frequency", "enable", "start", "end") for name in (plain, f"{{{SBM}}}{plain}")
+)
+"""Attributes that the noise of each joint has."""
+_OF_EACH_WAY: Final = ("speed", "manner")
+"""Attributes of a way along several points that the way to each of them has."""
 _OF_ONE_FACE: Final = frozenset({"type", "au", "side", "amount"})
 """Attributes in which faces differ that are one."""
 
@@ -29,13 +35,15 @@ def regroup(block: Tree, source: BlockSource) -> None:
     - Noise of several joints becomes noise of each, and noise in the hold of a gesture a behavior of its own.
     - A reach with a walk becomes a walk and a reach, and a way along several points becomes several ways.
     """
+    room = source.limits.behaviors_per_block
     for holder in [block, *block.iter("required")]:
         _join_faces(holder, source)
         for tree in list(holder):
             split = _SPLITS.get(name_of(tree))
             if split is not None and namespace_of(tree) in {"", SBM}:
                 _give_id(tree, source)
-                for added in split(tree, source):
+                for added in islice(split(tree, source), max(room, 0)):
+                    room -= 1  # what is over the limit is refused anyway
                     source.place(added, tree)
                     _give_id(added, source)
                     tree.addprevious(added)  # behaviors are planned in this order
@@ -73,18 +81,21 @@ def _times_of_face(tree: Tree) -> tuple[tuple[str, str], ...] | None:
     return tuple(sorted((str(name), str(value)) for name, value in tree.items() if name not in _OF_ONE_FACE))
 
 
+def _copied(tree: Tree, names: Iterable[str]) -> dict[str, str]:
+    return {name: tree.get(name, "") for name in names if name in tree.attrib}
+
+
 def _split_noise(tree: Tree, source: BlockSource) -> Iterator[Tree]:
-    joints = take(tree, _JOINTS).split()
+    joints = take(tree, _JOINTS).split()[:_MOST]
     for joint in joints[1:]:
-        attributes = {str(name): str(value) for name, value in tree.items() if name != "id"}
-        yield etree.Element(tree.tag, {**attributes, "joint": joint})
+        yield etree.Element(tree.tag, {**_copied(tree, _OF_NOISE), "joint": joint})
     if joints:
         tree.set("joint", joints[0])
 
 
 def _split_gesture(tree: Tree, source: BlockSource) -> Iterator[Tree]:
     """The noise of some joints while the hands hold after the stroke, if they do."""
-    joints, scale, frequency = take(tree, _JOINTS).split(), take(tree, "scale"), take(tree, "frequency")
+    joints, scale, frequency = take(tree, _JOINTS).split()[:_MOST], take(tree, "scale"), take(tree, "frequency")
     if joints and ("relax" in tree.attrib or "poststroke_hold" in tree.attrib):
         times = {"start": f"{tree.get('id')}:strokeEnd", "end": f"{tree.get('id')}:relax"}
         for joint in joints:
@@ -111,12 +122,12 @@ def _split_reach(tree: Tree, source: BlockSource) -> Iterator[Tree]:
 def _split_way(tree: Tree, source: BlockSource) -> Iterator[Tree]:
     """The ways to all points of a path but the last one."""
     numbers = tree.get("target", "").split()
-    if len(numbers) < 4 or len(numbers) % 2 or not all(map(_NUMBER.fullmatch, numbers)):
+    if not 4 <= len(numbers) <= 2 * _MOST or len(numbers) % 2 or not all(map(_NUMBER.fullmatch, numbers)):
         return
     *points, last = (f"{x} {z}" for x, z in zip(numbers[::2], numbers[1::2], strict=True))
     tree.set("target", last)
     start = take(tree, "start")
-    attributes = {str(name): str(value) for name, value in tree.items() if name not in _OF_THE_LAST_WAY}
+    attributes = _copied(tree, _OF_EACH_WAY)
     for point in points:
         way = etree.Element(tree.tag, {**attributes, "target": point})
         if start:

@@ -15,6 +15,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     tie,
 )
 from reactive_realizer.bml.smartbody.joints import target_named
+from reactive_realizer.bml.sync_ref import NUMBER
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.vocabulary import Influence, OffsetDirection
 from reactive_realizer.errors import Fault, RealizerError
@@ -52,7 +53,7 @@ _AROUND: Final = (
     OffsetDirection.UPLEFT,
 )
 """Directions from the target, clockwise, each 45 degrees from the one before."""
-_POLAR: Final = re.compile(r"POLAR\s+([-+]?[0-9.]+)", re.IGNORECASE)
+_POLAR: Final = re.compile(rf"POLAR\s+([-+]?{NUMBER})", re.IGNORECASE)
 _USUAL_ANGLE: Final = "30"
 _FASTEST: Final = 10_000.0
 _LONGEST: Final = 60.0
@@ -108,5 +109,5 @@ def _offset(tree: Tree) -> None:
     if not direction:
         return
     polar = _POLAR.fullmatch(direction)
-    tree.set("offsetDirection", _AROUND[round(float(polar[1]) / 45.0) % 8] if polar else direction)
+    tree.set("offsetDirection", _AROUND[round(float(polar[1]) % 360.0 / 45.0) % 8] if polar else direction)
     tree.set("offsetAngle", angle or _USUAL_ANGLE)
