@@ -1,4 +1,4 @@
-"""Measures how smoothly a figure moves in random scenes, and the range of its arms, from frames."""
+"""Measures how smoothly a figure moves in random scenes, the range of its arms, and how deep they are in it."""
 
 import asyncio
 from collections.abc import Sequence
@@ -6,8 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.testing.motion_laws import arm_ranges, worst_motion
+from reactive_realizer.testing.motion_laws import arm_ranges, hand_depth, worst_motion
 from reactive_realizer.testing.motion_scenes import play_scene
 from reactive_realizer.testing.pilot import open_pilot
 
@@ -15,6 +16,7 @@ AIMS = {
     "wrist_m_s2.p99": 60,
     "wrist_rad_s2.p99": 300,
     "head_deg_s.p99": 400,
+    "hand_depth_cm.p99": 1,
     "pronation_deg": 85,
     "supination_deg": 85,
     "radial_deg": 25,
@@ -32,8 +34,8 @@ def measure(scenes: int = 200) -> dict[str, object]:
     """
     worst, ranges = [], []
     for seed in range(scenes):
-        bodies = asyncio.run(_bodies(seed))
-        worst.append(worst_motion(bodies))
+        bodies, avatar = asyncio.run(_bodies(seed))
+        worst.append({**worst_motion(bodies), "hand_depth_cm": 100.0 * hand_depth(bodies, avatar)})
         ranges.append(arm_ranges(bodies))
     return {
         **{law: _percentiles([each[law] for each in worst]) for law in worst[0]},
@@ -41,10 +43,11 @@ def measure(scenes: int = 200) -> dict[str, object]:
     }
 
 
-async def _bodies(seed: int) -> list[Body]:
+async def _bodies(seed: int) -> tuple[list[Body], Avatar]:
     async with open_pilot(SceneOptions(voice="text")) as pilot:
         await play_scene(seed, pilot)
-        return pilot.bodies()
+        figure, *_ = pilot.realizer.characters.values()
+        return pilot.bodies(), figure.humanoid.avatar
 
 
 def _percentiles(values: Sequence[float]) -> dict[str, float]:

@@ -9,12 +9,10 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from reactive_realizer.embodiment.glb import BadAvatar, read_binary
+from reactive_realizer.embodiment.glb import BadAvatar
+from reactive_realizer.embodiment.glb_arrays import GlbArrays
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.errors import RealizerError
-
-_TYPES = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-"""Component types of glTF 2.0 (chapter "Accessor Data Types") that positions and their indices use."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,19 +35,19 @@ class FaceMesh:
             RealizerError: "bad-avatar": it has no morph targets, or its meshes are compressed.
         """
         try:
-            return cls._of(_Accessors(path))
+            return cls._of(GlbArrays(path))
         except (LookupError, TypeError, ValueError) as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=f"unreadable face ({problem!r})")) from problem
 
     @classmethod
-    def _of(cls, accessors: "_Accessors") -> Self:
+    def _of(cls, arrays: GlbArrays) -> Self:
         vertices: list[NDArray[np.float64]] = []
         moves: defaultdict[str, dict[int, NDArray[np.float64]]] = defaultdict(dict)
-        for names, parts in accessors.faces():
+        for names, parts in _faces(arrays.scene):
             for part in parts:
                 for name, target in zip(names, part["targets"], strict=True):
-                    moves[name][len(vertices)] = accessors.positions(target)
-                vertices.append(accessors.positions(part["attributes"]))
+                    moves[name][len(vertices)] = arrays[target["POSITION"]].astype(float)
+                vertices.append(arrays[part["attributes"]["POSITION"]].astype(float))
         if not vertices:
             raise ValueError("no morph targets")
         still = [np.zeros_like(each) for each in vertices]
@@ -81,33 +79,9 @@ class FaceMesh:
         return int((self.displacement(weights) @ np.array(direction)).argmax())
 
 
-class _Accessors:
-    """The arrays of a GLB file."""
-
-    def __init__(self, path: Path) -> None:
-        self._scene, self._data = read_binary(path)
-
-    def faces(self) -> Iterator[tuple[Sequence[str], Sequence[dict[str, Any]]]]:
-        """Yield the meshes with morph targets: names of the targets, and parts."""
-        for mesh in self._scene["meshes"]:
-            names = mesh.get("extras", {}).get("targetNames")
-            if names:
-                yield names, mesh["primitives"]
-
-    def positions(self, attributes: Mapping[str, int]) -> NDArray[np.float64]:
-        """Return the positions, (V, 3), among attributes of a part, or their displacements by a target."""
-        accessor = self._scene["accessors"][attributes["POSITION"]]
-        count = accessor["count"]
-        found = np.zeros((count, 3))
-        if "bufferView" in accessor:
-            found[:] = self._view(accessor, accessor["componentType"], 3 * count).reshape(count, 3)
-        if (sparse := accessor.get("sparse")) is not None:
-            changed, indices, values = sparse["count"], sparse["indices"], sparse["values"]
-            rows = self._view(indices, indices["componentType"], changed)
-            found[rows] = self._view(values, accessor["componentType"], 3 * changed).reshape(changed, 3)
-        return found
-
-    def _view(self, part: Mapping[str, Any], kind: int, count: int) -> NDArray[Any]:
-        view = self._scene["bufferViews"][part["bufferView"]]
-        start = view.get("byteOffset", 0) + part.get("byteOffset", 0)
-        return np.frombuffer(self._data, _TYPES[kind], count, start)
+def _faces(scene: Mapping[str, Any]) -> Iterator[tuple[Sequence[str], Sequence[dict[str, Any]]]]:
+    """Yield the meshes with morph targets: names of the targets, and parts."""
+    for mesh in scene["meshes"]:
+        names = mesh.get("extras", {}).get("targetNames")
+        if names:
+            yield names, mesh["primitives"]

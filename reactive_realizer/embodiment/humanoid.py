@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.clearance import Clearance
 from reactive_realizer.embodiment.face_map import NO_STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.inertialization import Inertialization
-from reactive_realizer.embodiment.joints import CARRYING, EYES, LEFT_ARM, RIGHT_ARM, ROOT
+from reactive_realizer.embodiment.joints import CARRYING, EYES, LEFT_ARM, RIGHT_ARM, ROOT, SIDES
 from reactive_realizer.embodiment.lids import with_lids
 from reactive_realizer.embodiment.place import Place, PlannedSteps
 from reactive_realizer.embodiment.pose import Layer, LayerKind, compose
@@ -21,6 +22,9 @@ from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, d
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.turn_weights import turns
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, distance, scale, subtract
+
+_AIMING = 0.4
+"""Time in which an arm that begins or ends to point ceases or begins to keep clear of the body, s."""
 
 
 class EyePose(NamedTuple):
@@ -82,12 +86,16 @@ class Humanoid:
         self._carrying = [joint for joint in CARRYING if joint in avatar.skeleton]
         self._arms = [joint for joint in avatar.skeleton.joints if joint in LEFT_ARM | RIGHT_ARM]
         self._inertialization = Inertialization(avatar.skeleton)
+        self.clearance = Clearance.of(avatar)
+        """Returns a body with its arms out of its flesh."""
+        self._aiming: frozenset[str] = frozenset()
+        self._aimed = dict.fromkeys(SIDES, 0.0)
         self._limit: SpeedLimit | None = None
         self._shown = Body(avatar.skeleton)
         self._time = GlobalTime(0.0)
         self._passed = 0.0
         self._before: Body | None = None
-        self._wanted = self._limited = self._shown
+        self._wanted = self._limited = self._smooth = self._clear = self._shown
         # Joints that forces moved in the last frame, so that speed limits do not hold back their animation.
         self._forced: frozenset[str] = frozenset()
         self.body = Body(avatar.skeleton)
@@ -101,6 +109,10 @@ class Humanoid:
         """Expect another motion of some joints in the next frame (`Inertialization.switch`)."""
         self._inertialization.switch(joints, until)
 
+    def aim(self, sides: Iterable[str]) -> None:
+        """Let arms ("l", "r") be where their motions want them from now on, even in flesh: their fingers point."""
+        self._aiming = frozenset(sides)
+
     def move(self, time: GlobalTime, layers: Iterable[Layer], faces: Iterable[Mapping[str, float]] = ()) -> None:
         """Move to the pose that layers compose for a time, turned further by the weights of faces, without a jump.
 
@@ -111,18 +123,20 @@ class Humanoid:
         added = (Layer(LayerKind.ADDITIVE, turned),) if turned else ()
         composed = compose(self.avatar.skeleton, (*layers, *added))
         smooth = self._inertialization(composed.shown, time)
+        clear = self.clearance(smooth, shares=self._ways_out(time - self._time))
         self._passed, self._time, self._wanted = time - self._time, time, composed.shown
         if self._limit is None:
             # Nothing was shown before: the figure does not come from elsewhere, however far its body at rest is away.
-            self._limit, self._shown, self._passed = SpeedLimit(smooth), smooth, 0.0
+            self._limit, self._shown, self._passed = SpeedLimit(clear), clear, 0.0
         else:
             self._before, self._place_before = self._shown, self._shown_place
             if self._forced:
                 self._limit.release(composed.shown, self._forced)
-            self._shown = self._limit(smooth, self._passed)
-        self._inertialization.note_shown(self._shown, time)
+            self._shown = self._limit(clear, self._passed)
+        self._smooth, self._clear = smooth, clear
+        self._inertialization.note_shown(self._without_clearance(), time)
         self._limited, self._forced, self._shown_place = self._shown, frozenset(), self.place
-        self.body = self._steady(self._inertialization.offset(composed.steady), smooth)
+        self.body = self._steady(self._inertialization.offset(composed.steady), clear)
 
     def simulate(self, dynamics: Dynamics) -> None:
         """Let forces move the figure from the pose of the last move; it may run in any thread."""
@@ -130,6 +144,24 @@ class Humanoid:
         kinematic = self._limited.pose
         moved = {joint: turn for joint, turn in body.pose.items() if turn is not kinematic[joint]}
         self._shown, self.body, self._forced = body, self.body.posed(moved, body.root), frozenset(moved)
+
+    def _ways_out(self, passed: float) -> dict[str, float]:
+        """Return how much of its way out of flesh each arm goes, 0 to 1, some time after the last frame, s."""
+        for side, aimed in self._aimed.items():
+            step = passed / _AIMING
+            self._aimed[side] = min(1.0, aimed + step) if side in self._aiming else max(0.0, aimed - step)
+        return {side: 1.0 - aimed * aimed * (3.0 - 2.0 * aimed) for side, aimed in self._aimed.items()}
+
+    def _without_clearance(self) -> Body:
+        """Return the body as shown, with its arms where they would be if they need not keep clear of it.
+
+        Offsets that decay belong to motions, which do not know of the way out: it is added to each pose anew.
+        """
+        if self._clear is self._smooth:
+            return self._shown
+        shown, smooth, clear = self._shown.pose, self._smooth.pose, self._clear.pose
+        moved = (joint for joint in self._arms if clear[joint] is not smooth[joint] and shown[joint] is clear[joint])
+        return self._shown.posed({joint: smooth[joint] for joint in moved})
 
     def _steady(self, steady: Body, wanted: Body) -> Body:
         """Return the body without additive motion, with arms that are slowed where they are shown."""
@@ -184,10 +216,12 @@ class Humanoid:
     def gap(self, joint: str) -> float:
         """Return the distance between the positions of a joint as composed and as moved, m.
 
-        Speed limits cause it, and offsets that still decay, such as those of a trunk that the joint hangs on.
+        Speed limits cause it, and offsets that still decay, such as those of a trunk that the joint hangs on; the way
+        out of the figure's own body does not count.
         """
-        wanted, limited = (body.transform(joint).position for body in (self._wanted, self._limited))
-        return distance(wanted, limited)
+        bodies = (self._wanted, self._limited, self._smooth, self._clear)
+        wanted, limited, smooth, clear = (body.transform(joint).position for body in bodies)
+        return distance(add(wanted, subtract(clear, smooth)), limited)
 
     def to_own_frame(self, point: Vec3) -> Vec3:
         """Convert a point of the world to the figure's frame, m."""

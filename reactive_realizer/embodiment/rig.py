@@ -16,6 +16,7 @@ from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, subtract
 _MOST_BONES = 1_000
 _UNEVEN = 0.01
 _LOWEST_HEAD, _HIGHEST_HEAD = 0.2, 4.0
+_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _TO_LEFT = (("l_shoulder", "r_shoulder"), ("l_hip", "r_hip"))
 
 
@@ -51,6 +52,15 @@ def place_above(scene: Mapping[str, Any], node: int) -> NDArray[np.float64]:
         ValueError, LookupError, TypeError, AttributeError: as for `bones_of`.
     """
     return _Rig(scene).place_above(node)
+
+
+def bone_places(scene: Mapping[str, Any]) -> dict[int, NDArray[np.float64]]:
+    """Return the transforms from the axes of bones, by node, to the figure's frame at rest, (4, 4) each.
+
+    Raises:
+        ValueError, LookupError, TypeError, AttributeError: as for `bones_of`.
+    """
+    return _Rig(scene).places()
 
 
 def bones_of(scene: Mapping[str, Any]) -> list[Bone]:
@@ -110,6 +120,12 @@ class _Rig:
         """Return the transform of the node above a bone."""
         _, *above = self._line(node)
         return self._places[above[0]] if above else np.eye(4)
+
+    def places(self) -> dict[int, NDArray[np.float64]]:
+        """Return the transforms from the axes of the nodes to the figure's frame."""
+        facing = np.eye(4)
+        facing[:3, :3] = np.array([rotate(self._facing(), axis) for axis in _AXES]).T
+        return {node: facing @ place for node, place in self._places.items()}
 
     def _named(self, nodes: Iterable[int]) -> dict[str, int]:
         found: dict[str, int] = {}
@@ -186,8 +202,7 @@ def _local(node: Mapping[str, Any]) -> NDArray[np.float64]:
     turn = normalize((w, x, y, z))
     place = np.eye(4)
     sizes = map(float, node.get("scale", (1.0, 1.0, 1.0)))
-    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    place[:3, :3] = np.array([rotate(turn, axis) for axis in axes]).T * list(sizes)
+    place[:3, :3] = np.array([rotate(turn, axis) for axis in _AXES]).T * list(sizes)
     place[:3, 3] = node.get("translation", ZERO)
     return place
 

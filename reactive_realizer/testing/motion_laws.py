@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from reactive_realizer.clock.ticker import FRAME_EVERY, RATE
 from reactive_realizer.embodiment.arm_anatomy import ArmAnatomy
+from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.clearance import Clearance
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.quaternion import Quat, difference, rotation_vector
 
@@ -36,6 +38,19 @@ def worst_motion(bodies: Sequence[Body]) -> dict[str, float]:
         },
         "head_deg_s": math.degrees(np.linalg.norm(_turns(head), axis=1).max()),
     }
+
+
+def hand_depth(bodies: Iterable[Body], avatar: Avatar) -> float:
+    """Return how deep a hand or a forearm of some bodies is in trunk, head or a thigh, m.
+
+    Args:
+        bodies: of one avatar, one or more.
+        avatar: whose skin tells how thick they are.
+
+    Returns:
+        The depth of the deepest one; if none is in flesh, minus their distance, and at least -`MARGIN`.
+    """
+    return max(map(Clearance.of(avatar).deepest, bodies))
 
 
 def velocities(bodies: Sequence[Body], joint: str) -> NDArray[np.float64]:

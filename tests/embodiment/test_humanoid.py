@@ -15,11 +15,13 @@ from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.humanoid import EyePose, Humanoid
 from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
-from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, from_axis_angle
+from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, from_axis_angle, multiply
 from reactive_realizer.embodiment.vector import UP, distance
 
 AVATAR = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "female.glb")
 FRAME = 0.02
+ASIDE = from_axis_angle((0.0, 0.0, 1.0), -0.5)
+"""A right arm that is away from the body; in the default pose, its hand is in the thigh."""
 
 
 def frame(
@@ -73,7 +75,11 @@ def test_an_eye_turns_no_faster_than_in_a_saccade_in_either_direction() -> None:
 
 def test_the_first_frame_is_as_requested() -> None:
     figure = Humanoid(AVATAR)
-    frame(figure, 3.0, [Layer(LayerKind.BASE, {"r_elbow": from_axis_angle(UP, 1.5)}, root=(0.0, -0.4, 0.0))])
+    frame(
+        figure,
+        3.0,
+        [Layer(LayerKind.BASE, {"r_shoulder": ASIDE, "r_elbow": from_axis_angle(UP, 1.5)}, root=(0.0, -0.4, 0.0))],
+    )
     assert angle(figure.shown.rotation("r_elbow")) == pytest.approx(1.5)
     assert figure.shown.root == (0.0, -0.4, 0.0)
 
@@ -81,7 +87,7 @@ def test_the_first_frame_is_as_requested() -> None:
 def test_a_frame_has_the_root_in_the_world_and_the_pose_in_the_order_of_the_skeleton() -> None:
     figure = Humanoid(AVATAR, position=(1.0, 0.0, 2.0), heading=0.5 * math.pi)
     elbow = from_axis_angle((1.0, 0.0, 0.0), -1.0)
-    layer = Layer(LayerKind.BASE, {"r_elbow": elbow, "l_no_such": elbow}, root=(0.0, 0.0, 0.1))
+    layer = Layer(LayerKind.BASE, {"r_shoulder": ASIDE, "r_elbow": elbow, "l_no_such": elbow}, root=(0.0, 0.0, 0.1))
     shown = frame(figure, 0.0, [layer])
     joints = AVATAR.skeleton.joints
     assert tuple(shown.rotations[joints.index("r_elbow")]) == elbow
@@ -117,7 +123,7 @@ def test_a_figure_that_has_moved_is_located_there_before_it_looks() -> None:
 
 def bent(angle_: float) -> list[Layer]:
     """An arm that moves."""
-    return [Layer(LayerKind.BASE, {"r_shoulder": from_axis_angle((1.0, 0.0, 0.0), -angle_)})]
+    return [Layer(LayerKind.BASE, {"r_shoulder": multiply(from_axis_angle((1.0, 0.0, 0.0), -angle_), ASIDE)})]
 
 
 def test_a_figure_is_at_rest_before_its_first_frame() -> None:

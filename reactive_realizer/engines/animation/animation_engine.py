@@ -31,7 +31,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.inertialization import CARRIED
-from reactive_realizer.embodiment.joints import HEAD, ROOT
+from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
 from reactive_realizer.embodiment.quaternion import Quat
@@ -131,7 +131,7 @@ class AnimationEngine(DefaultEngine):
         self._world = context.world
         binding = GestureBinding.read(*context.bindings["gesture"])
         library = PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses)
-        self._rest = RestPosture(library, self._expected, self._possible_bodies)
+        self._rest = RestPosture(library, self._expected, self._possible_bodies, context.humanoid.clearance)
         self._base_layer: Layer | None = None
         self._humanoid.rest(self._rest.body)
         functions = plugin_functions(context.functions)
@@ -310,6 +310,7 @@ class AnimationEngine(DefaultEngine):
         self._fade_outs = [fade_out for fade_out in self._fade_outs if not fade_out.finished(tick.time)]
         playing = self._playing()
         self._acting = self._controlling(playing)
+        self._humanoid.aim(_pointing_arms(playing))
         walking: tuple[Layer, ...] = self._isolated(
             "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time, playing), self._rest.body), ()
         )
@@ -550,6 +551,12 @@ class AnimationEngine(DefaultEngine):
         if self._base_layer is None or self._base_layer.rotations is not self._rest.pose:
             self._base_layer = Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)
         return self._base_layer
+
+
+def _pointing_arms(playing: Iterable[AnimationUnit]) -> frozenset[str]:
+    """Return the sides of the arms that point, or are about to."""
+    pointing = [unit for unit in playing if isinstance(unit.behavior, Pointing) and unit.phase < unit.keys["relax"]]
+    return frozenset(side for unit in pointing for side in SIDES if f"{side}_shoulder" in unit.motion.joints)
 
 
 def _precedes(unit: AnimationUnit, block: BlockKey, behavior: Behavior) -> bool:

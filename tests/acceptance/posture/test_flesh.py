@@ -4,6 +4,8 @@ from typing import Any
 
 import pytest
 
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.testing.motion_laws import accelerations, hand_depth
 from reactive_realizer.testing.pilot import RealizerPilot
 
 from .flesh import deepest_in_each_other, deepest_in_legs, deepest_in_trunk
@@ -17,6 +19,19 @@ SOFT = 0.03
 LEANING = '<pose part="WHOLEBODY" lexeme="{}"/>'
 BEFORE_THE_BELLY = ("BEAT", "OFFER", "CONDUIT", "CHOP")
 
+
+IN_FLESH = 0.015
+"""m that a hand may be in trunk, head or thighs, as thick as the avatar's skin says."""
+
+BRAKING = 65.0
+"""m/s² of a wrist that goes around them."""
+
+AROUND = [
+    ("ARMS_AKIMBO", "ARMS_CROSSED"),
+    ("ARMS_CROSSED", "ARMS_SPREAD"),
+    ("ARMS_FORWARD", "ARMS_AKIMBO"),
+    ("ARMS_OPEN", "ARMS_NEUTRAL"),
+]
 
 POSES = ["", LEANING.format("LEANING_FORWARD"), LEANING.format("LEANING_BACKWARD"), CROSSED, AKIMBO]
 
@@ -36,7 +51,7 @@ async def test_hands_at_the_hips_touch_them(alternating: RealizerPilot, stance: 
     alternating.block("b", f'<postureShift id="s" start="0"><stance type="{stance}"/>{AKIMBO}</postureShift>')
     await alternating.advance(5)
     shown = alternating.bodies()[-1:]
-    assert -0.07 < deepest_in_legs(shown) < 0.025
+    assert -0.08 < deepest_in_legs(shown) < 0.025
     assert deepest_in_trunk(shown) < SOFT
 
 
@@ -63,3 +78,35 @@ async def test_no_leg_passes_through_the_other_when_legs_are_crossed(either: Rea
     await either.advance(6)
     assert either.feedback.reached("b:p:end")
     assert deepest_in_each_other(either.bodies()[::2]) < SOFT
+
+
+@pytest.mark.parametrize("stance", ["STANDING", "SITTING", "CROUCHING"])
+@pytest.mark.parametrize(("begin", "goal"), AROUND)
+async def test_hands_go_around_the_body_from_one_posture_to_another(
+    either: RealizerPilot, stance: str, begin: str, goal: str
+) -> None:
+    for number, arms in enumerate((begin, goal, begin)):
+        posture = f'<stance type="{stance}"/><pose part="ARMS" lexeme="{arms}"/>'
+        either.block(f"b{number}", f'<postureShift id="s" start="0">{posture}</postureShift>')
+        await either.advance(3)
+    shown = either.bodies()
+    assert depth(either, shown[130:]) < IN_FLESH
+    assert max(accelerations(shown[100:], f"{side}_wrist").max() for side in "lr") < BRAKING
+
+
+@pytest.mark.parametrize("stance", ["STANDING", "SITTING", "CROUCHING"])
+@pytest.mark.parametrize("lexeme", [*BEFORE_THE_BELLY, "SELF", "CONDUCT"])
+async def test_no_gesture_passes_through_the_body(alternating: RealizerPilot, stance: str, lexeme: str) -> None:
+    alternating.block("a", f'<postureShift id="s"><stance type="{stance}"/></postureShift>')
+    await alternating.advance(3)
+    alternating.block("b", f'<gesture id="g" lexeme="{lexeme}" mode="LEFT_HAND"/>')
+    await alternating.advance(4)
+    assert alternating.feedback.reached("b:g:stroke")
+    assert alternating.feedback.warnings == []
+    assert depth(alternating, alternating.bodies()[150:]) < IN_FLESH
+
+
+def depth(pilot: RealizerPilot, bodies: list[Body]) -> float:
+    """How deep a hand or forearm is in flesh, m."""
+    figure, *_ = pilot.realizer.characters.values()
+    return hand_depth(bodies, figure.humanoid.avatar)

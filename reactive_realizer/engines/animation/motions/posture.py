@@ -24,6 +24,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     Predictability,
     Resource,
 )
+from reactive_realizer.engines.animation.posture.detour import Detour, detour
 from reactive_realizer.engines.animation.posture.posture_library import PART_JOINTS, BodyPosture
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import from_rest, lag, moving_time
@@ -67,7 +68,12 @@ class PostureMotionUnit(MotionUnit):
     predictability = Predictability.ONCE_STARTED
 
     def __init__(
-        self, rest: RestPosture, stance: StanceType | None, poses: Iterable[Pose], *, shift: bool = False
+        self,
+        rest: RestPosture,
+        stance: StanceType | None,
+        poses: Iterable[Pose],
+        *,
+        shift: bool = False,
     ) -> None:
         """Plan a posture.
 
@@ -113,6 +119,9 @@ class PostureMotionUnit(MotionUnit):
         self._goal = {joint: self.body.rotation(joint) for joint in turned}
         self._root = None if turned.isdisjoint(PART_JOINTS[PosePart.LEGS]) else self.body.root
         self._sinking = abs(self.body.root[1] - self._from.root[1])
+        self._detour = Detour()
+        if not self.joints.isdisjoint(_SWING):
+            self._detour = detour(self._from, self.body.posed(self._goal, self._root), self._rest.clear)
 
     def _named_joints(self) -> frozenset[str]:
         """Return the joints that the behavior names; postures that play below do not show through them."""
@@ -140,7 +149,7 @@ class PostureMotionUnit(MotionUnit):
         arrived = minimum_jerk(share(phase, 0.0, self._ready))
         left = minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 0.0
         weight = arrived * (1.0 - left)
-        return MotionPose(self._bowed(weight), weight, self._root)
+        return MotionPose(self._detour.turned(self._bowed(weight), weight), weight, self._root)
 
     def becomes_rest(self) -> bool:
         """A shift becomes the rest posture."""

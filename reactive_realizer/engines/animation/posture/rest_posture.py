@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 
 from reactive_realizer.embodiment.body import Body, JointRotations
+from reactive_realizer.embodiment.clearance import Clear
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 
 
@@ -20,6 +21,7 @@ class RestPosture:
         library: PostureLibrary,
         expected: Callable[[], BodyPosture] = BodyPosture,
         possible_bodies: Callable[[], Iterable[Body]] = tuple,
+        clear: Clear = lambda body, _: body,
     ) -> None:
         """Start with standing.
 
@@ -27,12 +29,13 @@ class RestPosture:
             library: of postures.
             expected: returns the posture after all shifts that come before the behavior that is being planned.
             possible_bodies: returns bodies in other postures in which that behavior may find the figure.
+            clear: brings the arms of a body out of its flesh.
         """
-        self._library = library
+        self._library, self.clear = library, clear
         self._expected = expected
         self._possible_bodies = possible_bodies
         self.posture = BodyPosture()
-        self.body = library.body(self.posture)
+        self.body = clear(library.body(self.posture), 0.0)
 
     @property
     def pose(self) -> JointRotations:
@@ -63,7 +66,7 @@ class RestPosture:
         first = BodyPosture()
         if self.posture == first:
             return False
-        self.adopt(first, self._library.body(first))
+        self.adopt(first, self.clear(self._library.body(first), 0.0))
         return True
 
     def check(self, posture: BodyPosture) -> None:
@@ -82,4 +85,6 @@ class RestPosture:
         Raises:
             RealizerError: a file cannot be used.
         """
-        return self.body if posture == self.posture else self._library.body(self._library.possible(posture))
+        if posture == self.posture:
+            return self.body
+        return self.clear(self._library.body(self._library.possible(posture)), 0.0)

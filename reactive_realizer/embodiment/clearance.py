@@ -1,0 +1,212 @@
+"""Keeps the hands and forearms of a figure out of its own trunk, thighs and head.
+
+Each pose is changed by itself, whatever came before: an arm that is in flesh goes out by the shortest way, by a turn
+of its shoulder and a bend of its elbow, and the elbow swivels where the forearm is in the way. The way out begins
+softly before the skin, so that a hand that comes near slides along the body, and does not stop at it.
+
+After M. Müller and others, "Position based dynamics" (2007): each contact moves both ends of the forearm by as little
+as possible.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import NamedTuple, Self
+
+from reactive_realizer.embodiment.avatar import Avatar
+from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.flesh import Contacts, Flesh, flesh_of
+from reactive_realizer.embodiment.girth import Girth, girth_of
+from reactive_realizer.embodiment.joints import ROOT, SIDES
+from reactive_realizer.embodiment.posed_arm import STAYING, ArmLinks, PosedArm, Shift
+from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale
+
+MARGIN = 0.015
+"""Distance from the skin at which the way out begins, m."""
+
+_YIELDING = 0.005
+"""Depth to which a hand that wants to be deep in flesh is in it, m: the skin gives way."""
+
+_SOFTLY = MARGIN + _YIELDING
+"""Depth around that within which the way out begins, m."""
+
+_FAR = 0.005
+"""Way out up to which one step of the solution is enough, m."""
+
+_WATCHED = (
+    ROOT,
+    "vc4",
+    "skullbase",
+    *(f"{side}_{joint}" for side in SIDES for joint in ("hip", "knee", "elbow", "wrist", "middle1")),
+)
+"""Joints that tell whether arms may have come near to flesh."""
+
+_ROOM = 0.25
+"""Distance from flesh up to which it is measured, m, where arms are free."""
+
+_RARELY = 8
+"""Arms that move come near to flesh within frames: how far it is away is measured in one of so many of them."""
+
+_SURELY = 0.3
+"""Share of the distance that each of these joints may go: both sides move, and a fingertip further than its knuckle."""
+
+_MORE = 2
+"""Further steps of the solution, after the first one."""
+
+_NOTHING = 1e-7
+"""m²"""
+
+_BOTH: Mapping[str, float] = MappingProxyType(dict.fromkeys(SIDES, 1.0))
+
+Clear = Callable[[Body, float], Body]
+"""Returns a body with its arms out of its flesh, and away from it, m (`Clearance`)."""
+
+
+class Clearance:
+    """Keeps the arms of a figure out of its body.
+
+    Args:
+        skeleton: of the figure.
+        girth: its thickness.
+    """
+
+    def __init__(self, skeleton: Skeleton, girth: Girth) -> None:
+        self._parts = flesh_of(skeleton, girth)
+        self._arms = [ArmLinks.of(skeleton, side, girth) for side in SIDES]
+        self._watched = [joint for joint in _WATCHED if joint in skeleton]
+        # Where these joints were when both arms were last looked at, and how far away from flesh the arms were then.
+        self._seen: list[Vec3] = []
+        self._free, self._looks = 0.0, 0
+
+    @classmethod
+    def of(cls, avatar: Avatar) -> Self:
+        """Return the clearance of an avatar."""
+        return cls(avatar.skeleton, girth_of(avatar))
+
+    def __call__(self, body: Body, away: float = 0.0, shares: Mapping[str, float] = _BOTH) -> Body:
+        """Return a body with both arms out of its flesh; the same one if they are.
+
+        Args:
+            body: in any pose.
+            away: distance from flesh that they keep, m.
+            shares: "l" and "r" -> how much of its way out an arm goes, 0 to 1.
+        """
+        places = [body.transform(joint).position for joint in self._watched]
+        if self._seen and _near(places, self._seen, _SURELY * (self._free - away - MARGIN)):
+            self._looks = 0
+            return body
+        room = MARGIN if self._looks % _RARELY else _ROOM
+        self._looks += 1
+        for part in self._parts:
+            part.pose(body)
+        looks = [self._look(body, links, away, room) for links in self._arms]
+        self._seen, self._free = places, min(look.free for look in looks) + away
+        turns: dict[str, Quat] = {}
+        for side, look in zip(SIDES, looks, strict=True):
+            if look.free < MARGIN and shares[side] > 0.0:
+                turns |= self._turns(body, look, shares[side])
+        return body.posed(turns) if turns else body
+
+    def deepest(self, body: Body) -> float:
+        """Return how deep a hand or a forearm is in flesh, m; if none is, at least -`MARGIN`."""
+        for part in self._parts:
+            part.pose(body)
+        found = (
+            each.depth
+            for links in self._arms
+            for part in self._parts
+            for each in part.contacts(links.points(body), links.radii, MARGIN).values()
+        )
+        return max(found, default=-MARGIN)
+
+    def _look(self, body: Body, links: ArmLinks, away: float, room: float) -> "_Look":
+        """Return how near an arm is to flesh; its points are only looked at where the balls around them are near."""
+        balls, sizes = links.balls(body), [size + away for size in links.sizes]
+        points: tuple[Vec3, ...] = ()
+        radii = [radius + away for radius in links.radii]
+        free, contacts = room, {}
+        for part in self._parts:
+            near = part.contacts(balls, sizes, room)
+            if near and max(each.depth for each in near.values()) > -MARGIN:
+                points = points or links.points(body)
+                near = contacts[part] = part.contacts(points, radii, room)
+            free = min((free, *(-each.depth for each in near.values())))
+        return _Look(links, points, radii, contacts, free)
+
+    def _turns(self, body: Body, look: "_Look", share: float) -> dict[str, Quat]:
+        """Return the rotations with which an arm has gone a share of its way out of flesh."""
+        arm = PosedArm.of(body, look.links, look.points)
+        shares, furthest, left = look.links.shares, 0.0, {}
+        for part, found in look.contacts.items():
+            ways = {index: _way(each.depth) for index, each in found.items() if each.depth > -MARGIN}
+            left[part] = {index: max(0.0, found[index].depth - way) for index, way in ways.items()}
+            arm = arm.shifted(_shift(found, ways, shares))
+            furthest = max((furthest, *ways.values()))
+        for _ in range(_MORE if furthest > _FAR else 0):
+            for part, deep in left.items():
+                found = part.contacts(arm.points, look.radii, 0.0)
+                ways = {index: max(0.0, each.depth - deep.get(index, 0.0)) for index, each in found.items()}
+                arm = arm.shifted(_shift(found, ways, shares))
+        turns = {arm.links.shoulder: arm.shoulder, arm.links.elbow: arm.elbow}
+        if share == 1.0:
+            return turns
+        return {joint: slerp(body.rotation(joint), turn, share) for joint, turn in turns.items()}
+
+
+class _Look(NamedTuple):
+    """What is known of an arm in a pose.
+
+    Attributes:
+        links: its joints.
+        points: that are kept clear, m; none if it is far away from flesh.
+        radii: of these points, m.
+        contacts: the parts that it is near to, and the points that are.
+        free: its distance from flesh as far as it was measured, m.
+    """
+
+    links: ArmLinks
+    points: tuple[Vec3, ...]
+    radii: Sequence[float]
+    contacts: Mapping[Flesh, Contacts]
+    free: float
+
+
+def _near(places: Sequence[Vec3], before: Sequence[Vec3], within: float) -> bool:
+    """Return whether no place is farther than a distance from where it was before, m."""
+    if within <= 0.0:
+        return False
+    most = within * within
+    for (x, y, z), (bx, by, bz) in zip(places, before, strict=True):
+        x, y, z = x - bx, y - by, z - bz
+        if x * x + y * y + z * z > most:
+            return False
+    return True
+
+
+def _shift(contacts: Contacts, ways: Mapping[int, float], shares: Sequence[float]) -> Shift:
+    """Return where a forearm should go, so that its points go out on their ways; the deeper ones count for more.
+
+    Args:
+        contacts: where each point leaves the part that it is in.
+        ways: of these points, m.
+        shares: of the forearm at which the points are.
+    """
+    total = sum(way * way for way in ways.values()) if ways else 0.0
+    if total < _NOTHING:
+        return STAYING
+    elbow = wrist = ZERO
+    for index, way in ways.items():
+        if way > 0.0:
+            share, out = shares[index], contacts[index].out
+            gain = way * way * way / (total * (share * share + (1.0 - share) * (1.0 - share)))
+            elbow = add(elbow, scale(out, gain * (1.0 - share)))
+            wrist = add(wrist, scale(out, gain * share))
+    return Shift(elbow, wrist)
+
+
+def _way(deep: float) -> float:
+    """Return how far a point at a depth goes out, m."""
+    beyond = deep - _YIELDING
+    if beyond >= _SOFTLY:
+        return beyond
+    return (beyond + _SOFTLY) ** 2 / (4.0 * _SOFTLY)

@@ -1,0 +1,163 @@
+"""The way of the arms around the body when they go from one pose to another."""
+
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from types import MappingProxyType
+from typing import NamedTuple
+
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.clearance import Clear
+from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.pose import Layer, LayerKind, over
+from reactive_realizer.embodiment.quaternion import (
+    Quat,
+    difference,
+    from_rotation_vector,
+    multiply,
+    rotation_vector,
+)
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale
+
+_TURNED = {side: (f"{side}_shoulder", f"{side}_elbow") for side in SIDES}
+
+_WEIGHTS = tuple(number / 15 for number in range(1, 15))
+"""Shares of the way at which the arms are looked at."""
+
+_STEPS = 2
+"""Steps of the solution; what it leaves, the figure keeps clear of in each frame."""
+
+_ENOUGH = 0.03
+"""A smaller turn is left to that, rad."""
+
+_MUCH = 0.1
+"""A turn that is left over from which on another kind of detour is tried, rad."""
+
+_AWAY = 0.02
+"""Distance that they keep from the body on their way, m."""
+
+_LARGEST = (0.01, 0.1, 0.33, 0.6)
+"""Weights at which the detour of the goal is largest."""
+
+_Turns = Mapping[str, Vec3]
+
+_HALF_A_TURN = math.cos(0.5 * math.radians(172.0))
+"""Least product of the rotations between which a joint goes, as quaternions: at 0, it would go the other way round."""
+
+
+class Detour(NamedTuple):
+    """How the arms turn further on their way.
+
+    Attributes:
+        turns: joint -> rotation vector in its own axes, rad: how much further it turns midway.
+        early: whether they turn so from the beginning on, by a goal that lies further away.
+    """
+
+    turns: Mapping[str, Vec3] = MappingProxyType({})
+    early: bool = True
+
+    def turned(self, goal: Mapping[str, Quat], weight: float) -> Mapping[str, Quat]:
+        """Return the rotations of a goal on the way to it; joints that it does not turn are left out.
+
+        Args:
+            goal: rotations.
+            weight: of the goal, 0 to 1: the detour that is shown is this share of that of the goal.
+        """
+        share = self.share(weight)
+        if not share:
+            return goal
+        turns = {joint: from_rotation_vector(scale(turn, share)) for joint, turn in self.turns.items() if joint in goal}
+        return {**goal, **{joint: multiply(goal[joint], turn) for joint, turn in turns.items()}}
+
+    def share(self, weight: float) -> float:
+        """Return how much of the detour is added to a goal: times its weight, it is 0 at both ends, and 1 midway."""
+        if self.early:
+            return 4.0 * (1.0 - weight)
+        return 5.38 * math.sqrt(weight) * (1.0 - weight)
+
+    def limited(self, begin: Body, goal: Body) -> "Detour":
+        """Return the detour, smaller where a joint would come near to half a turn, and go the other way round."""
+        return self._replace(turns={joint: self._limited(joint, begin, goal) for joint in self.turns})
+
+    def _limited(self, joint: str, begin: Body, goal: Body) -> Vec3:
+        turn, start, end = self.turns[joint], begin.rotation(joint), goal.rotation(joint)
+        same = math.copysign(1.0, _product(start, end))
+        for part in (1.0, 0.8, 0.6, 0.4, 0.2):
+            ways = (from_rotation_vector(scale(turn, part * self.share(weight))) for weight in _LARGEST)
+            if all(same * _product(start, multiply(end, way)) > _HALF_A_TURN for way in ways):
+                return scale(turn, part)
+        return ZERO
+
+
+@lru_cache(64)
+def detour(begin: Body, goal: Body, clear: Clear) -> Detour:
+    """Return the detour on which the arms keep clear of the body, as far as one turn of each joint can.
+
+    Args:
+        begin: the body from which they go.
+        goal: the body to which they go, by their weight.
+        clear: brings the arms of a body out of its flesh.
+    """
+    search = _Search(begin, goal, clear)
+    early, left = search(Detour())
+    if left < _MUCH:
+        return early
+    late, still_left = search(Detour(early=False))
+    return late if still_left < left else early
+
+
+class _Search:
+    """The search for a detour."""
+
+    def __init__(self, begin: Body, goal: Body, clear: Clear) -> None:
+        self._begin, self._goal, self._clear = begin, goal, clear
+        self._ends = [self._turns(body) for body in (begin, goal)]
+
+    def __call__(self, way: Detour) -> tuple[Detour, float]:
+        """Return the best detour of a kind, and how far the arms still have to turn to be out of flesh, rad."""
+        best = (way, math.inf)
+        for _ in range(_STEPS + 1):
+            worst, further = self._worst(way)
+            left = max(worst.values(), default=0.0)
+            if left < best[1]:
+                best = (way, left)
+            if not worst:
+                break
+            turns = {joint: add(way.turns.get(joint, ZERO), turn) for joint, turn in further.items()}
+            way = way._replace(turns={**way.turns, **turns}).limited(self._begin, self._goal)
+        return best
+
+    def _worst(self, way: Detour) -> tuple[dict[str, float], dict[str, Vec3]]:
+        """Return how far each arm has to turn to be out of flesh where it is deepest, rad, and the turns of a detour.
+
+        What an arm needs at an end of the way, too, is left out.
+        """
+        worst: dict[str, float] = {}
+        further: dict[str, Vec3] = {}
+        for weight in _WEIGHTS:
+            layer = Layer(LayerKind.POSTURE, way.turned(self._goal.pose, weight), weight, root=self._goal.root)
+            turns = self._turns(over(self._begin, layer))
+            for side in SIDES if turns else ():
+                begin, goal, size = (_size(each, side) for each in (*self._ends, turns))
+                beyond = size - (1.0 - weight) * begin - weight * goal
+                if beyond > worst.get(side, _ENOUGH):
+                    worst[side] = beyond
+                    factor = beyond / size / (weight * way.share(weight))
+                    further |= {joint: scale(turns[joint], factor) for joint in _TURNED[side]}
+        return worst, further
+
+    def _turns(self, body: Body) -> _Turns:
+        """Return how the joints of the arms turn to be out of flesh, rad; none if they are."""
+        out = self._clear(body, _AWAY)
+        if out is body:
+            return {}
+        joints = (joint for side in SIDES for joint in _TURNED[side])
+        return {joint: rotation_vector(difference(body.rotation(joint), out.rotation(joint))) for joint in joints}
+
+
+def _size(turns: _Turns, side: str) -> float:
+    return max(length(turns[joint]) for joint in _TURNED[side]) if turns else 0.0
+
+
+def _product(a: Quat, b: Quat) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
