@@ -41,16 +41,13 @@ def worst_motion(bodies: Sequence[Body]) -> dict[str, float]:
 
 
 def hand_depth(bodies: Iterable[Body], avatar: Avatar) -> float:
-    """Return how deep a hand or a forearm of some bodies is in trunk, head or a thigh, m.
+    """Return how deep the deepest hand or forearm of some bodies is in trunk, head or a thigh, m; 0 if none is.
 
     Args:
-        bodies: of one avatar, one or more.
+        bodies: of one avatar.
         avatar: whose skin tells how thick they are.
-
-    Returns:
-        The depth of the deepest one; if none is in flesh, minus their distance, and at least -`MARGIN`.
     """
-    return max(map(Clearance.of(avatar).deepest, bodies))
+    return max(0.0, *map(Clearance.of(avatar).deepest, bodies))
 
 
 def velocities(bodies: Sequence[Body], joint: str) -> NDArray[np.float64]:

@@ -55,7 +55,7 @@ KEYS: dict[str, set[str]] = {
     "motion": {
         *(
             f"{law}.{part}"
-            for law in ("wrist_m_s2", "wrist_rad_s2", "elbow_rad_s2", "head_deg_s")
+            for law in ("wrist_m_s2", "wrist_rad_s2", "elbow_rad_s2", "head_deg_s", "hand_depth_cm")
             for part in ("p50", "p90", "p99", "max")
         ),
         *(f"{way}_deg" for way in ("pronation", "supination", "radial", "ulnar")),
