@@ -234,6 +234,10 @@ def test_the_speed_of_the_joints_is_a_limit_for_the_head(written: str, speed: st
     assert gaze(f'sbm:joint-speed="{written}" sbm:joint-smooth="0.2"').parameters == {"speed": speed}
 
 
+def test_a_roll_tilts_the_head() -> None:
+    assert gaze('sbm:roll="-10"').parameters == {"roll": "-10"}
+
+
 def test_a_gaze_without_a_target_fades_out_to_the_viewer() -> None:
     gaze = only('<gaze id="g" sbm:handle="h" sbm:fade-out="0.7" start="2"/>')
     assert isinstance(gaze, Gaze)
@@ -241,8 +245,8 @@ def test_a_gaze_without_a_target_fades_out_to_the_viewer() -> None:
 
 
 def test_what_a_gaze_cannot_do_is_told_in_one_warning() -> None:
-    (sentence,) = told('<gaze target="x" sbm:roll="10" sbm:fade-out="1" sbm:handle="h"/>')
-    assert sentence == "sbm:roll, sbm:fade-out of SmartBody has no effect on <gaze> here"
+    (sentence,) = told('<gaze target="x" sbm:priority-joint="EYES" sbm:fade-out="1" sbm:handle="h"/>')
+    assert sentence == "sbm:priority-joint, sbm:fade-out of SmartBody has no effect on <gaze> here"
 
 
 # --- head, face, gestures, clips, walking

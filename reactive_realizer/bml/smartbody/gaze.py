@@ -56,6 +56,7 @@ _AROUND: Final = (
 _POLAR: Final = re.compile(rf"POLAR\s+([-+]?{NUMBER})", re.IGNORECASE)
 _USUAL_ANGLE: Final = "30"
 _FASTEST: Final = 10_000.0
+_MOST_ROLL: Final = 45.0
 _LONGEST: Final = 60.0
 
 
@@ -74,6 +75,9 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
         if time := take_number(tree, name, source, 0.0, _LONGEST):
             tie(tree, "ready", "start", time)
     _limit_speed(tree, source)
+    roll = take_number(tree, "roll", source, -_MOST_ROLL, _MOST_ROLL)
+    if roll:
+        set_parameter(tree, "roll", f"{roll:g}", source)
     drop(tree, "handle", "joint-smooth", "speed-smoothing")
     return left_out(tree, source)
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, multiply
+from reactive_realizer.embodiment.quaternion import angle, conjugate, difference, multiply, rotate
 from reactive_realizer.embodiment.quaternion import between as shortest
 from reactive_realizer.embodiment.vector import FORWARD, subtract, unit
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
@@ -75,6 +75,19 @@ async def test_a_behavior_may_limit_the_speed_of_the_head(pilot: RealizerPilot, 
     assert 3.0 < arrived < 4.5
     fastest = math.degrees(max(speeds(pilot.bodies()[: at(pilot, arrived)], "skullbase")))
     assert fastest == pytest.approx(20.0, rel=0.15)
+    assert pilot.feedback.warnings == []
+
+
+@pytest.mark.parametrize("roll", [15, -15])
+async def test_a_behavior_may_tilt_the_head_without_losing_its_target(pilot: RealizerPilot, roll: int) -> None:
+    there = put(pilot, "t", 20, 0)
+    tilt = f'<bmlt:parameter name="roll" value="{roll}"/>'
+    pilot.block("b", f'<gaze id="g" target="t" start="0" end="6">{tilt}</gaze>')
+    await pilot.advance(3)
+    body = pilot.bodies()[-1]
+    ear = rotate(body.transform("skullbase").rotation, (1.0, 0.0, 0.0))
+    assert math.degrees(math.asin(ear[1])) == pytest.approx(roll, abs=2)
+    assert miss(body, there) < 0.5
     assert pilot.feedback.warnings == []
 
 

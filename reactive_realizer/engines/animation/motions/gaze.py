@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from types import MappingProxyType
-from typing import Self
+from typing import NamedTuple, Self
 
 from reactive_realizer.binding.asset_file import parse_boolean
 from reactive_realizer.bml.behavior import Behavior
@@ -17,8 +17,8 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import HEAD, TRUNK
 from reactive_realizer.embodiment.place import heading_of
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, angle, difference, slerp
-from reactive_realizer.embodiment.vector import ZERO, Vec3
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, from_axis_angle, multiply, slerp
+from reactive_realizer.embodiment.vector import FORWARD, ZERO, Vec3
 from reactive_realizer.engines.animation.easing import MINIMUM_JERK_PEAK, minimum_jerk, share
 from reactive_realizer.engines.animation.faults import GazeNear, GazeShort, WrongElement
 from reactive_realizer.engines.animation.gaze.eyes import GazeTarget
@@ -40,11 +40,30 @@ from reactive_realizer.engines.animation.walking.manner import stepping_time, tu
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.planunit.parameter import Range
 
-SPEED = "speed"
-"""Parameter of gazes and shifts: limit of the angular velocity of the head on its way to the target, degrees/s."""
+SPEED, ROLL = "speed", "roll"
+"""Parameters of gazes and shifts: limit of the speed of the head on its way to the target, degrees/s; tilt of the head
+about the direction of the nose, degrees, to the figure's right."""
 
-SPEED_RANGE = Range(1.0, 10_000.0)
-"""Its valid values; the head turns no faster than people do."""
+MANNERS: Mapping[str, Range] = MappingProxyType({SPEED: Range(1.0, 10_000.0), ROLL: Range(-45.0, 45.0)})
+"""Their valid values; the head turns no faster than people do."""
+
+
+class TurnManner(NamedTuple):
+    """How a head turns to a target.
+
+    Attributes:
+        speed: limit of its angular velocity on the way, rad/s.
+        roll: tilt about the direction of the nose, rad.
+    """
+
+    speed: float = math.inf
+    roll: float = 0.0
+
+    @classmethod
+    def of(cls, request: MotionRequest) -> Self:
+        """Return what a behavior or its binding gives."""
+        given = parameter_values(request.parameters, MANNERS)
+        return cls(**{name: math.radians(value) for name, value in given.items()})
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +132,7 @@ class GazeMotionUnit(MotionUnit):
 
     kind = LayerKind.GAZE
     planning_work = 25
-    fixed = frozenset({SPEED})
+    fixed = frozenset({SPEED, ROLL})
     joints = frozenset(joint for joints in JOINT_GROUPS.values() for joint in joints)
 
     def __init__(
@@ -126,7 +145,7 @@ class GazeMotionUnit(MotionUnit):
         *,
         may_step: bool = False,
         follows: bool = False,
-        speed: float = math.inf,
+        manner: "TurnManner | None" = None,
     ) -> None:
         """Plan a gaze.
 
@@ -138,8 +157,10 @@ class GazeMotionUnit(MotionUnit):
             expected: the target as it is now; without one, the gaze has no shortest durations.
             may_step: whether the feet turn the figure where joints do not reach the target.
             follows: whether the target may move meanwhile.
-            speed: limit of the angular velocity of the head on its way to the target, rad/s.
+            manner: of the turn; None for the usual one.
         """
+        manner = manner or TurnManner()
+        self._roll = from_axis_angle(FORWARD, manner.roll)
         self.parameters = dict(weights)
         self.ranges = {group: GAZE_WEIGHTS[group] for group in weights}
         self.group = kind.group
@@ -158,7 +179,7 @@ class GazeMotionUnit(MotionUnit):
         if expected is not None:
             turn = self._step_turn(expected)
             self.steps = self.steps or turn != 0.0
-            self._take_time(max(stepping_time(turn).preferred, self._slow(expected, speed)))
+            self._take_time(max(stepping_time(turn).preferred, self._slow(expected, manner.speed)))
             self.shortest = self._shortest(expected, stepping_time(turn).shortest)
 
     @property
@@ -227,9 +248,15 @@ class GazeMotionUnit(MotionUnit):
         if self.fault is None and _CHECK_FROM * self._ready <= phase <= self._relax:
             self._check_target(turn, body)
         return MotionPose(
-            self._eased(turn.rotations, moment),
+            self._eased(self._rolled(turn.rotations), moment),
             1.0 - minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 1.0,
         )
+
+    def _rolled(self, turns: Mapping[str, Quat]) -> Mapping[str, Quat]:
+        """Return the turn with the head tilted about the direction of the nose."""
+        if self._roll == IDENTITY or HEAD[-1] not in turns:
+            return turns
+        return {**turns, HEAD[-1]: multiply(turns[HEAD[-1]], self._roll)}
 
     def _eased(self, goal: Mapping[str, Quat], moment: Moment) -> Mapping[str, Quat]:
         """Return the turn, as far as it is done at a moment.
@@ -287,12 +314,6 @@ DYNAMIC = (BMLT, "dynamic")
 """Attribute of a gaze that follows a moving target."""
 
 
-def _speed(request: MotionRequest) -> float:
-    """Return the limit of the speed of the head that a behavior or its binding gives, rad/s; infinity for none."""
-    given = parameter_values(request.parameters, {SPEED: SPEED_RANGE})
-    return math.radians(given[SPEED]) if SPEED in given else math.inf
-
-
 class GazeMaker:
     """Makes gazes and shifts of gaze to targets of the world.
 
@@ -325,7 +346,7 @@ class GazeMaker:
         may_step, follows = _may_step(self._context, weights, gaze.target), self._follow or _follows(gaze)
         rest = self._context.rest
         return GazeMotionUnit(
-            target, weights, rest, kind, expected, may_step=may_step, follows=follows, speed=_speed(request)
+            target, weights, rest, kind, expected, may_step=may_step, follows=follows, manner=TurnManner.of(request)
         )
 
 
@@ -347,7 +368,14 @@ class HeadDirectionMaker:
         del weights[EYE_WEIGHT]
         may_step, rest, follows = _may_step(self._context, weights, shift.target), self._context.rest, _follows(shift)
         return GazeMotionUnit(
-            target, weights, rest, HEAD_SHIFT, expected, may_step=may_step, follows=follows, speed=_speed(request)
+            target,
+            weights,
+            rest,
+            HEAD_SHIFT,
+            expected,
+            may_step=may_step,
+            follows=follows,
+            manner=TurnManner.of(request),
         )
 
 
