@@ -94,7 +94,9 @@ class Humanoid:
         self._shown = Body(avatar.skeleton)
         self._time = GlobalTime(0.0)
         self._passed = 0.0
+        # The bodies shown in the two frames before, the last one first.
         self._before: Body | None = None
+        self._sooner: Body | None = None
         self._wanted = self._limited = self._smooth = self._clear = self._shown
         # Joints that forces moved in the last frame, so that speed limits do not hold back their animation.
         self._forced: frozenset[str] = frozenset()
@@ -129,7 +131,7 @@ class Humanoid:
             # Nothing was shown before: the figure does not come from elsewhere, however far its body at rest is away.
             self._limit, self._shown, self._passed = SpeedLimit(clear), clear, 0.0
         else:
-            self._before, self._place_before = self._shown, self._shown_place
+            self._before, self._sooner, self._place_before = self._shown, self._before, self._shown_place
             if self._forced:
                 self._limit.release(composed.shown, self._forced)
             self._shown = self._limit(clear, self._passed)
@@ -200,18 +202,22 @@ class Humanoid:
         return self._time
 
     def expected(self, time: GlobalTime) -> Body:
-        """Return the figure as shown last, with what carries its arms going on as in the last frame.
+        """Return the figure as shown last, with what carries its arms going on as in the last frames.
 
         Args:
-            time: of a future frame, s. The motion is extrapolated by one frame at most.
+            time: of a future frame, s. The motion is extrapolated by one frame at most, with its acceleration.
         """
         before, shown, ahead = self._before, self._shown, time - self._time
         if before is None or ahead <= 0.0 or before is shown:
             return shown
-        share = min(1.0, ahead / self._passed)
-        steps = {joint: difference(before.rotation(joint), shown.rotation(joint)) for joint in self._carrying}
-        turned = {joint: multiply(shown.rotation(joint), power(step, share)) for joint, step in steps.items()}
-        return shown.posed(turned, add(shown.root, scale(subtract(shown.root, before.root), share)))
+        share, sooner = min(1.0, ahead / self._passed), self._sooner or before
+        turned = {
+            joint: multiply(shown.rotation(joint), power(_next(joint, sooner, before, shown), share))
+            for joint in self._carrying
+        }
+        way, last = subtract(shown.root, before.root), subtract(before.root, sooner.root)
+        further = way if sooner is before else subtract(scale(way, 2.0), last)
+        return shown.posed(turned, add(shown.root, scale(further, share)))
 
     def gap(self, joint: str) -> float:
         """Return the distance between the positions of a joint as composed and as moved, m.
@@ -262,6 +268,13 @@ class Humanoid:
         for morph in face.keys() & self._morphs.keys():
             weights[self._morphs[morph]] = min(max(face[morph], 0.0), 1.0)
         return weights
+
+
+def _next(joint: str, sooner: Body, before: Body, shown: Body) -> Quat:
+    """Return the turn of a joint in the next frame: that of the last one, and as much more as it has grown."""
+    first, second, third = (body.rotation(joint) for body in (sooner, before, shown))
+    step = difference(second, third)
+    return step if sooner is before else multiply(step, difference(difference(first, second), step))
 
 
 def _sum(faces: Iterable[Mapping[str, float]]) -> dict[str, float]:

@@ -128,6 +128,7 @@ async def test_gaze_and_breathing_do_not_move_the_finger_off_its_target(
     [
         '<gaze id="g" target="bob" influence="WAIST" start="1.2" end="3"/>',
         '<gaze id="g" target="behind" influence="WAIST" start="1.2" end="3"/>',
+        '<gaze id="g" target="behind" influence="WAIST" start="1.2" ready="1.4" end="3"/>',
         '<posture id="q" start="1.2"><stance type="SITTING"/></posture>',
         '<head id="h" lexeme="TILT_FORWARD" start="1.2"/>',
     ],
