@@ -94,7 +94,7 @@ class Avatar:
             raise RealizerError(
                 BadAvatar(
                     file=file,
-                    reason=f"no bone for {', '.join(missing)} (known:  Mixamo, VRM, Unreal, Rigify or H-Anim)",
+                    reason=f"no bone for {', '.join(missing)} (known: Mixamo, VRM, Unreal, Rigify or H-Anim)",
                 )
             )
         links = [_link(bones, i) for i in indices]

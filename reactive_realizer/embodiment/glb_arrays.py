@@ -14,6 +14,9 @@ _TYPES = {5121: "u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 
 _COLUMNS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
+_MOST = 10_000_000
+"""Most elements of an array. Accessors without data of their own may claim any number."""
+
 
 class GlbArrays:
     """The scene of a GLB file, and its arrays.
@@ -33,6 +36,8 @@ class GlbArrays:
         """
         accessor = self.scene["accessors"][number]
         kind, count, columns = accessor["componentType"], accessor["count"], _COLUMNS[accessor["type"]]
+        if count > _MOST:
+            raise ValueError(f"an accessor has {count} elements; at most {_MOST} are read")
         if "bufferView" in accessor:
             found = self._view(accessor, kind, count, columns)
         else:

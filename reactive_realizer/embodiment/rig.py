@@ -1,7 +1,7 @@
 """Finds the humanoid in the nodes of a glTF scene: which bone is which joint, and where bones are at rest."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -83,13 +83,15 @@ class _Rig:
         if not scene.get("skins"):
             raise ValueError("it has no skin, so no bones move it")
         self._nodes = scene["nodes"]
-        self._parents = {child: i for i, node in enumerate(self._nodes) for child in node.get("children", ())}
+        self._parents = _parents(self._nodes)
         skinned = dict.fromkeys(joint for skin in scene["skins"] for joint in skin["joints"])
         if sum(len(skin["joints"]) for skin in scene["skins"][:1]) > _MOST_BONES or len(skinned) > _MOST_BONES:
             raise ValueError(f"it has more than {_MOST_BONES} bones")
         humanoid = _vrm_joints(scene)
         self._joints = {**self._named(node for node in skinned if node not in humanoid.values()), **humanoid}
         self._candidates = tuple(dict.fromkeys((*skinned, *self._joints.values())))
+        if not all(0 <= node < len(self._nodes) for node in self._candidates):
+            raise ValueError("it has a bone that is none of its nodes")
         self._places = {node: self._place(node) for each in self._candidates for node in self._line(each)}
 
     def bones(self) -> list[Bone]:
@@ -150,6 +152,8 @@ class _Rig:
     def _place(self, node: int) -> NDArray[np.float64]:
         place = np.eye(4)
         for each in self._line(node):
+            if not any(self._nodes[each].get("rotation", (1.0,))):
+                raise ValueError(f"the bone {self._name(each)} is nowhere at rest: its rotation is zero")
             place = _local(self._nodes[each]) @ place
         if not np.isfinite(place).all():
             raise ValueError(f"the bone {self._name(node)} is nowhere at rest: its transform is not finite")
@@ -180,6 +184,19 @@ class _Rig:
                 quarters = round(math.atan2(z, x) / (0.5 * math.pi))
                 return from_axis_angle(UP, quarters * 0.5 * math.pi) if quarters else IDENTITY
         return IDENTITY
+
+
+def _parents(nodes: Sequence[Mapping[str, Any]]) -> dict[int, int]:
+    """Return the node above each node that has one."""
+    parents: dict[int, int] = {}
+    for number, node in enumerate(nodes):
+        for child in node.get("children", ()):
+            if not 0 <= child < len(nodes):
+                raise ValueError(f"the node {number} has a child, {child}, that does not exist")
+            if child in parents:
+                raise ValueError(f"the node {child} has two nodes above it, {parents[child]} and {number}")
+            parents[child] = number
+    return parents
 
 
 def _vrm_joints(scene: Mapping[str, Any]) -> dict[str, int]:

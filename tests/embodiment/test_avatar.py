@@ -164,6 +164,12 @@ TWO_BONES: dict[str, object] = {"skins": [{"joints": [0, 1]}], "meshes": []}
             glb({"nodes": [{"name": n, "children": [1 - i]} for i, n in enumerate("ab")], **TWO_BONES}),
             "own ancestor",
         ),
+        (
+            glb({"nodes": [{"children": [1]}, {"children": [1]}], **TWO_BONES}),
+            "the node 1 has two nodes above it, 0 and 1",
+        ),
+        (glb({"nodes": [{"children": [-1]}, {}], **TWO_BONES}), "the node 0 has a child, -1, that does not exist"),
+        (glb({"nodes": [{}], "skins": [{"joints": [-1]}], "meshes": []}), "it has a bone that is none of its nodes"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0] * 1001}]}), "more than 1000 bones"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [7]}], "meshes": []}), "unusable skin or mesh"),
         (glb({"nodes": [{"name": "Hips"}], "skins": [{"joints": [0]}], "meshes": []}), "no bone for skullbase"),

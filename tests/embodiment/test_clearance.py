@@ -12,13 +12,12 @@ from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.clearance import MARGIN, Clearance
 from reactive_realizer.embodiment.girth import girth_of
+from reactive_realizer.embodiment.glb import read_binary, write_binary
 from reactive_realizer.embodiment.quaternion import from_axis_angle, multiply
 from reactive_realizer.embodiment.vector import distance
 
-AVATARS = {
-    name: Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / f"{name}.glb")
-    for name in ("female", "male")
-}
+PACKAGE = Path(str(files("reactive_realizer"))) / "assets" / "avatars"
+AVATARS = {name: Avatar.read(PACKAGE / f"{name}.glb") for name in ("female", "male")}
 SIDEWAYS, INWARD = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 YIELDING = 0.01
 """m that a hand may stay in flesh."""
@@ -61,6 +60,14 @@ def test_a_figure_without_a_readable_skin_is_as_thick_as_people_are(avatar: Avat
         assert section.side == pytest.approx(expected.side, rel=0.5)
     assert measured.thigh.begin == pytest.approx(usual.thigh.begin, rel=0.3)
     assert measured.hand == pytest.approx(usual.hand, rel=0.3)
+
+
+def test_a_skin_that_claims_more_than_any_file_has_is_not_read(tmp_path: Path) -> None:
+    scene, _ = read_binary(PACKAGE / "female.glb")
+    claimed = [{"count": 10**13, "componentType": 5126, "type": "VEC3"} for _ in scene["accessors"]]
+    write_binary(tmp_path / "claims.glb", {**scene, "accessors": claimed}, b"")
+    avatar = Avatar.read(tmp_path / "claims.glb")
+    assert girth_of(avatar) == girth_of(replace(avatar, path=None))
 
 
 def test_a_hand_in_the_belly_goes_out_in_front(avatar: Avatar) -> None:

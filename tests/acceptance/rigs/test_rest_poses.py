@@ -132,6 +132,7 @@ def test_of_two_figures_in_a_file_the_first_is_used(tmp_path: Path) -> None:
         ({"scale": [-1.0, 1.0, 1.0]}, "HumanoidRoot is scaled unevenly or mirrored"),
         ({"scale": [100.0, 100.0, 100.0]}, "its head is .* m above its hips; it must stand upright, y up, in meters"),
         ({"rotation": [0.7071, 0.0, 0.0, 0.7071]}, "it must stand upright"),
+        ({"rotation": [0.0, 0.0, 0.0, 0.0]}, "nowhere at rest: its rotation is zero"),
         ({"name": "thing"}, "no bone for HumanoidRoot"),
     ],
 )
