@@ -30,6 +30,9 @@ _MIDDLE = 0.5 * (1.0 + _FOREARM[0])
 _HAND = ("index1", "pinky1", "middle2", "middle3")
 
 _STRAIGHT = 0.995
+_BENT = 0.002
+"""Square of the sine of its bend at which an elbow bends half as much as it should."""
+
 _FOLDED = math.radians(30.0)
 _OFF_LINE = 0.02
 """Distance of the elbow from the line between shoulder and wrist from which on it swivels well, m."""
@@ -182,9 +185,12 @@ def _bend(upper: Vec3, lower: Vec3, far: float) -> Quat:
     long, short = length(upper), length(lower)
     sum_of_squares, product = long * long + short * short, 2.0 * long * short
     least = math.sqrt(sum_of_squares - product * math.cos(_FOLDED))
-    far = min(_STRAIGHT * (long + short), max(least, far))
-    now = math.acos(max(-1.0, min(1.0, 2.0 * dot(upper, lower) / product)))
+    axis = scale(cross(upper, lower), 2.0 / product)
+    bent = dot(axis, axis)
+    # A straight elbow would have to bend abruptly for little.
+    stretched = length(add(upper, lower))
+    far = stretched + (far - stretched) * bent / (bent + _BENT)
+    far = min(max(stretched, _STRAIGHT * (long + short)), max(least, far))
+    now = math.atan2(math.sqrt(bent), 2.0 * dot(upper, lower) / product)
     then = math.acos(max(-1.0, min(1.0, (far * far - sum_of_squares) / product)))
-    axis = cross(upper, lower)
-    hinge = add(scale(axis, 2.0 / product), scale(Arm.HINGE, 0.01))
-    return from_axis_angle(unit(hinge), then - now)
+    return from_axis_angle(unit(add(axis, scale(Arm.HINGE, 0.01))), then - now)
