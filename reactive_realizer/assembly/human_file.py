@@ -44,6 +44,9 @@ FEWEST_STEPS, MOST_STEPS = 2, 20
 WIDEST = 100.0
 """Limit of the radius of a target, m."""
 
+FARTHEST = 10_000.0
+"""Limit of the coordinates of characters and targets, m, also for clients that move targets."""
+
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
 """Ids that BML can refer to."""
 
@@ -215,6 +218,12 @@ class _Reader:
             if name not in known:
                 raise self._bad(f"{key}.{name}".lstrip("."), f"unknown; known are {', '.join(known)}")
 
+    def _coordinate(self, key: str, value: Any) -> float:
+        coordinate: float = self._value(key, value, float)
+        if abs(coordinate) > FARTHEST:
+            raise self._bad(key, f"{coordinate:g} is not from {-FARTHEST:g} to {FARTHEST:g} m")
+        return coordinate
+
     def _value(self, key: str, value: Any, kind: Any) -> Any:
         """The value, if it has the type of the field."""
         number = isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= float_info.max
@@ -227,7 +236,7 @@ class _Reader:
         if kind in (str, bool) and isinstance(value, kind):
             return value
         if kind == Vec3 and isinstance(value, list) and len(value) == 3:
-            return tuple(self._value(key, part, float) for part in value)
+            return tuple(self._coordinate(key, part) for part in value)
         if kind == tuple[str, ...] and isinstance(value, list):
             return tuple(self._value(key, part, str) for part in value)
         if kind == Mapping[str, float] and isinstance(value, dict):

@@ -146,7 +146,7 @@ async def test_a_gaze_that_falls_short_is_reported_once_with_its_angle(
     pilot.block("b", xml)
     await pilot.advance(4)
     (said,) = told(pilot)
-    assert said.endswith("degrees short of its target, which is too far to the side for the joints that take part")
+    assert said.endswith("degrees short of its target, which is beyond the reach of the joints that take part")
     nearest = min(max(missed(body, eye, target) for eye in EYES) for body in pilot.bodies())
     assert int(said.split()[3]) == pytest.approx(nearest, abs=2.5)
     assert pilot.feedback.reached("b:x:end")

@@ -75,6 +75,7 @@ async def test_the_viseme_binding_of_an_avatar_is_beside_it(human: Callable[[str
         (ALICE + "heading = 1" + "0" * 5000, ["human.toml"]),
         (ALICE + 'bindings = { foo = "x" }', ["character.alice.bindings.foo", "known are gesture, face"]),
         (ALICE + "[target.t]\nposition = [0, 1, 2]\nradius = -0.1", ["target.t.radius", "-0.1 is not from 0 to 100 m"]),
+        (ALICE + "[target.t]\nposition = [0, 1e300, 2]", ["target.t.position", "1e+300 is not from -10000 to 10000 m"]),
         (ALICE + "expressivity = { power = 1.5 }", ["character.alice.expressivity.power", "1.5 is not from -1 to 1"]),
         (ALICE + "expressivity = { strength = 1 }", ["expressivity.strength", "unknown", "power", "fluidity"]),
         (ALICE + 'expressivity = { power = "strong" }', ["expressivity.power", "wrong type"]),

@@ -68,9 +68,11 @@ async def test_buttons_and_keys_choose_a_shot_until_the_user_moves_the_camera(se
         await page.click("#shot-full")
         await expect(pressed).to_have_text("Full body")
         assert await page.locator("#viewport canvas").screenshot() != whole
+        await page.keyboard.press("3")
+        await expect(pressed).to_have_text("Upper body")
         await page.fill("#bml-text", "")
         await page.type("#bml-text", "1")
-        await expect(pressed).to_have_text("Full body")
+        await expect(pressed).to_have_text("Upper body")
         await page.mouse.move(200, 200)
         await page.mouse.wheel(0, -100)
         await expect(pressed).to_have_count(0)

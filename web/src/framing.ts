@@ -29,8 +29,8 @@ export interface View {
 const USUAL: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0] };
 
 /** Space above the head and below what is shown, m: hands are raised above the head, and feet are set forward. */
-const ABOVE: Record<Shot, number> = { face: 0.05, bust: 0.1, upper: 0.13, full: 0.13 };
-const BELOW: Record<Shot, number> = { face: 0.05, bust: 0.05, upper: 0.05, full: 0.15 };
+const ABOVE: Record<Shot, number> = { face: 0.05, bust: 0.1, upper: 0.13, full: 0.2 };
+const BELOW: Record<Shot, number> = { face: 0.05, bust: 0.05, upper: 0.05, full: 0.25 };
 
 /** Space to each side of the characters, m: a gesture reaches farther than a face. */
 const REACH: Record<Shot, number> = { face: 0.16, bust: 0.27, upper: 0.5, full: 0.5 };

@@ -191,12 +191,11 @@ class HandLate(PlayingFault):
 
 
 class GazeShort(PlayingFault):
-    """A target too far to the side; ``angle`` is how far the gaze falls short, in degrees."""
+    """A target beyond the range of the joints; ``angle`` is how far the gaze falls short, in degrees."""
 
     code = "gaze-short"
     template = (
-        "the gaze stays {angle:.0f} degrees short of its target, "
-        "which is too far to the side for the joints that take part"
+        "the gaze stays {angle:.0f} degrees short of its target, which is beyond the reach of the joints that take part"
     )
     angle: float
 

@@ -19,7 +19,8 @@ export class ShotsPanel {
     }
     window.addEventListener("keydown", (event) => {
       const [shot] = SHOTS[Number(event.key) - 1] ?? [];
-      if (shot !== undefined && document.activeElement === document.body) this.choose(shot);
+      const typing = document.activeElement?.matches("input, select, textarea") ?? false;
+      if (shot !== undefined && !typing && !event.ctrlKey && !event.metaKey && !event.altKey) this.choose(shot);
     });
   }
 
