@@ -81,6 +81,8 @@ def in_centimeters(path: Path) -> None:
         node["translation"] = [100 * each for each in node["translation"]]
     half = 0.5**0.5
     above = {"name": "Armature", "children": [0], "rotation": [-half, 0, 0, half], "scale": [0.01, 0.01, 0.01]}
+    scene["nodes"][-1]["children"].remove(0)
+    scene["scenes"][0]["nodes"].append(len(scene["nodes"]))
     scene["nodes"].append(above)
     scene["animations"] = [{"channels": [], "samplers": []}]
     write_binary(path, scene, data)
