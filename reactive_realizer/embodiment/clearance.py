@@ -14,9 +14,9 @@ from typing import NamedTuple, Self
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.flesh import Contacts, Flesh, flesh_of
+from reactive_realizer.embodiment.flesh import Ball, Contacts, Flesh, flesh_of
 from reactive_realizer.embodiment.girth import Girth, girth_of
-from reactive_realizer.embodiment.joints import ROOT, SIDES
+from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.posed_arm import STAYING, ArmLinks, PosedArm, Shift
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale
@@ -32,23 +32,6 @@ _SOFTLY = MARGIN + _YIELDING
 
 _FAR = 0.005
 """Way out up to which one step of the solution is enough, m."""
-
-_WATCHED = (
-    ROOT,
-    "vc4",
-    "skullbase",
-    *(f"{side}_{joint}" for side in SIDES for joint in ("hip", "knee", "elbow", "wrist", "middle1")),
-)
-"""Joints that tell whether arms may have come near to flesh."""
-
-_ROOM = 0.25
-"""Distance from flesh up to which it is measured, m, where arms are free."""
-
-_RARELY = 8
-"""Arms that move come near to flesh within frames: how far it is away is measured in one of so many of them."""
-
-_SURELY = 0.3
-"""Share of the distance that each of these joints may go: both sides move, and a fingertip further than its knuckle."""
 
 _MORE = 2
 """Further steps of the solution, after the first one."""
@@ -73,10 +56,6 @@ class Clearance:
     def __init__(self, skeleton: Skeleton, girth: Girth) -> None:
         self._parts = flesh_of(skeleton, girth)
         self._arms = [ArmLinks.of(skeleton, side, girth) for side in SIDES]
-        self._watched = [joint for joint in _WATCHED if joint in skeleton]
-        # Where these joints were when both arms were last looked at, and how far away from flesh the arms were then.
-        self._seen: list[Vec3] = []
-        self._free, self._looks = 0.0, 0
 
     @classmethod
     def of(cls, avatar: Avatar) -> Self:
@@ -91,19 +70,11 @@ class Clearance:
             away: distance from flesh that they keep, m.
             shares: "l" and "r" -> how much of its way out an arm goes, 0 to 1.
         """
-        places = [body.transform(joint).position for joint in self._watched]
-        if self._seen and _near(places, self._seen, _SURELY * (self._free - away - MARGIN)):
-            self._looks = 0
-            return body
-        room = MARGIN if self._looks % _RARELY else _ROOM
-        self._looks += 1
-        for part in self._parts:
-            part.pose(body)
-        looks = [self._look(body, links, away, room) for links in self._arms]
-        self._seen, self._free = places, min(look.free for look in looks) + away
+        posed: set[Flesh] = set()
         turns: dict[str, Quat] = {}
-        for side, look in zip(SIDES, looks, strict=True):
-            if look.free < MARGIN and shares[side] > 0.0:
+        for side, links in zip(SIDES, self._arms, strict=True):
+            look = self._look(body, links, away, posed)
+            if look.contacts and shares[side] > 0.0:
                 turns |= self._turns(body, look, shares[side])
         return body.posed(turns) if turns else body
 
@@ -119,26 +90,37 @@ class Clearance:
         )
         return max(found, default=-MARGIN)
 
-    def _look(self, body: Body, links: ArmLinks, away: float, room: float) -> "_Look":
-        """Return how near an arm is to flesh; its points are only looked at where the balls around them are near."""
+    def _look(self, body: Body, links: ArmLinks, away: float, posed: set[Flesh]) -> "_Look":
+        """Return where an arm is near to flesh; its points are only looked at where the balls around them are near.
+
+        Args:
+            body: in any pose.
+            links: the arm.
+            away: distance from flesh that it keeps, m.
+            posed: parts that have this pose already; those that are near get it, and are added.
+        """
         balls, sizes = links.balls(body), [size + away for size in links.sizes]
-        points: tuple[Vec3, ...] = ()
         radii = [radius + away for radius in links.radii]
-        free, contacts = room, {}
+        points: tuple[Vec3, ...] = ()
+        contacts = {}
         for part in self._parts:
-            near = part.contacts(balls, sizes, room)
-            if near and max(each.depth for each in near.values()) > -MARGIN:
+            if not _reaches(part.ball(body), balls, sizes):
+                continue
+            if part not in posed:
+                part.pose(body)
+                posed.add(part)
+            if part.contacts(balls, sizes, MARGIN):
                 points = points or links.points(body)
-                near = contacts[part] = part.contacts(points, radii, room)
-            free = min((free, *(-each.depth for each in near.values())))
-        return _Look(links, points, radii, contacts, free)
+                if near := part.contacts(points, radii, MARGIN):
+                    contacts[part] = near
+        return _Look(links, points, radii, contacts)
 
     def _turns(self, body: Body, look: "_Look", share: float) -> dict[str, Quat]:
         """Return the rotations with which an arm has gone a share of its way out of flesh."""
         arm = PosedArm.of(body, look.links, look.points)
         shares, furthest, left = look.links.shares, 0.0, {}
         for part, found in look.contacts.items():
-            ways = {index: _way(each.depth) for index, each in found.items() if each.depth > -MARGIN}
+            ways = {index: _way(each.depth) for index, each in found.items()}
             left[part] = {index: max(0.0, found[index].depth - way) for index, way in ways.items()}
             arm = arm.shifted(_shift(found, ways, shares))
             furthest = max((furthest, *ways.values()))
@@ -161,26 +143,22 @@ class _Look(NamedTuple):
         points: that are kept clear, m; none if it is far away from flesh.
         radii: of these points, m.
         contacts: the parts that it is near to, and the points that are.
-        free: its distance from flesh as far as it was measured, m.
     """
 
     links: ArmLinks
     points: tuple[Vec3, ...]
     radii: Sequence[float]
     contacts: Mapping[Flesh, Contacts]
-    free: float
 
 
-def _near(places: Sequence[Vec3], before: Sequence[Vec3], within: float) -> bool:
-    """Return whether no place is farther than a distance from where it was before, m."""
-    if within <= 0.0:
-        return False
-    most = within * within
-    for (x, y, z), (bx, by, bz) in zip(places, before, strict=True):
-        x, y, z = x - bx, y - by, z - bz
-        if x * x + y * y + z * z > most:
-            return False
-    return True
+def _reaches(ball: Ball, centers: Sequence[Vec3], radii: Sequence[float]) -> bool:
+    """Return whether one of some balls may be near to what is in another one."""
+    (bx, by, bz), radius = ball
+    for (x, y, z), own in zip(centers, radii, strict=True):
+        far = radius + own + MARGIN
+        if (x - bx) ** 2 + (y - by) ** 2 + (z - bz) ** 2 < far * far:
+            return True
+    return False
 
 
 def _shift(contacts: Contacts, ways: Mapping[int, float], shares: Sequence[float]) -> Shift:

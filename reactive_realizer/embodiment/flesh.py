@@ -15,6 +15,7 @@ from reactive_realizer.embodiment.vector import (
     Vec3,
     add,
     cross,
+    distance,
     dot,
     length,
     rejected,
@@ -48,8 +49,19 @@ Contacts = dict[int, Depth]
 """Number of a point -> how deep it is."""
 
 
+class Ball(NamedTuple):
+    """A ball, by center and radius, m."""
+
+    center: Vec3
+    radius: float
+
+
 class Flesh(Protocol):
     """A part of a figure."""
+
+    def ball(self, body: Body) -> Ball:
+        """Return a ball in which the part of a body is, in the figure's frame, before it is posed."""
+        ...
 
     def pose(self, body: Body) -> None:
         """Set the body whose part it is from now on."""
@@ -96,6 +108,12 @@ class Thigh:
         self._axes = _Axes(ZERO, ZERO, ZERO)
         self._size = 0.0
 
+    def ball(self, body: Body) -> Ball:
+        """See `Flesh`."""
+        (hx, hy, hz), (kx, ky, kz) = (body.transform(joint).position for joint in self._joints)
+        center = 0.5 * (hx + kx), 0.5 * (hy + ky), 0.5 * (hz + kz)
+        return Ball(center, distance(center, (hx, hy, hz)) + (1.0 + _BACK) * max(self._radii))
+
     def pose(self, body: Body) -> None:
         """See `Flesh`."""
         hip, knee = (body.transform(joint) for joint in self._joints)
@@ -135,6 +153,10 @@ class Head:
         self._center, self._size = girth.head, girth.head_size
         self._furthest = max(girth.head_size)
         self._at, self._turn = ZERO, IDENTITY
+
+    def ball(self, body: Body) -> Ball:
+        """See `Flesh`."""
+        return Ball(body.transform("skullbase").position, length(self._center) + self._furthest)
 
     def pose(self, body: Body) -> None:
         """See `Flesh`."""
@@ -179,6 +201,14 @@ class Trunk:
         self._bent_at_rest = 0.0
         self.pose(Body(skeleton))
         self._bent_at_rest = dot(self._bend, FORWARD)
+
+    def ball(self, body: Body) -> Ball:
+        """See `Flesh`."""
+        (rx, ry, rz), (nx, ny, nz) = body.transform(ROOT).position, body.transform(self._neck).position
+        center = 0.5 * (rx + nx), 0.5 * (ry + ny), 0.5 * (rz + nz)
+        # The sections go on beyond both ends.
+        half = distance(center, (rx, ry, rz)) * (1.0 + 2.0 * max(-_BOTTOM, _TOP - 1.0, 0.0))
+        return Ball(center, half + self._widest + _CAP)
 
     def pose(self, body: Body) -> None:
         """See `Flesh`."""
