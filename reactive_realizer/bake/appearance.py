@@ -1,4 +1,4 @@
-"""What users choose of an avatar: a character of the package with another age, build, skin, hair, eyes and clothes."""
+"""Changes the age, build, skin, hair, eyes and clothes of a character before its avatar is made."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

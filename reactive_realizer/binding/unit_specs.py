@@ -66,7 +66,7 @@ class UnitSpecs:
         return (*exact, *(spec for spec in specs if _MODE in spec.constraints and spec.fits(values, _MODE)))
 
     def binds(self, behavior: Behavior) -> bool:
-        """Whether there are entries for the element of a behavior."""
+        """Return whether any entry plays the element of a behavior."""
         return (behavior.namespace, behavior.name, None) in self._by_lexeme
 
     def constrained_values(self, behavior: str, namespace: str) -> Mapping[str, tuple[str, ...]]:

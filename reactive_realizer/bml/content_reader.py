@@ -107,7 +107,7 @@ class ContentReader:
         return [each for each in may if each.id not in ended and not _ENDING & set(each.syncs)]
 
     def _is_draft_pose(self, behavior: Behavior) -> bool:
-        """Whether a behavior is a gaze, a posture or noise, but no shift, of a draft."""
+        """Return whether a behavior of a draft persists without an end: a gaze, a posture or noise, but not a shift."""
         return behavior.id in self._drafts and type(behavior) in (Gaze, Posture, Noise)
 
     def report(self, faults: list[Fault], part: str | None = None) -> None:

@@ -24,7 +24,7 @@ _OF_OTHER_VOICES: Final = ("language", "voice", "type")
 _OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax")
 """Sync points that speech files of SmartBody state, and that a speech does not have."""
 _NO_FILE: Final = "voice_defaultTTS"
-"""What the Virtual Human Toolkit writes as the recording of a speech that a voice speaks."""
+"""The Virtual Human Toolkit names this recording where a voice is to speak the text."""
 _MARKS: Final = ("tm", UNCLOSED_MARK, "mark")
 _ACCENT, _BOUNDARY = "pitchaccent", "boundary"
 _STRENGTHS: Final = ("strong", "moderate", "reduced", "none")

@@ -50,7 +50,7 @@ _CONSTRAINT: Final = "constraint"
 
 
 def is_of_smartbody(tree: Tree) -> bool:
-    """Whether a behavior may have elements or attributes of SmartBody: it is in its namespace, or in none."""
+    """Return whether the element of a behavior is in the namespace of SmartBody, or in none."""
     return namespace_of(tree) in {"", SBM}
 
 

@@ -69,7 +69,7 @@ def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def is_of_hand(constraint: Tree) -> bool:
-    """Whether a constraint of SmartBody is one of the place of a hand."""
+    """Return whether a constraint of SmartBody keeps a hand at a place."""
     side, _, joint = constraint.get("effector", "").partition("_")
     kind = constraint.get("{urn:smartbody}constraint-type", "pos")
     return side in _HANDS and joint.startswith(("wrist", "hand", "index", "middle")) and kind.lower() == "pos"
