@@ -189,11 +189,8 @@ class BlockSource:
         ]
 
     def foreign_attributes(self, tree: Tree) -> list[Fault]:
-        """A fault for each attribute of another namespace."""
-        return [
-            self.located(tree, ForeignAttribute(attribute=name, namespace=namespace))
-            for namespace, name in extensions_of(tree)
-        ]
+        """One fault for all attributes of each other namespace."""
+        return [self.located(tree, fault) for fault in ForeignAttribute.of(extensions_of(tree))]
 
     def unknown_attributes(self, tree: Tree, names: Iterable[str]) -> list[Fault]:
         """One fault for all attributes without a namespace that have other names than these."""

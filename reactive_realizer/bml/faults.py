@@ -1,5 +1,7 @@
 """Faults of documents: what cannot be read, and references that name nothing."""
 
+from collections.abc import Iterable
+
 from reactive_realizer.errors import Fault, ParsingFault, SchedulingFault, WarningType
 
 
@@ -399,13 +401,21 @@ class UnknownBehavior(Fault):
 
 
 class ForeignAttribute(Fault):
-    """An attribute of another namespace that no engine uses."""
+    """Attributes of an element, of another namespace, that no engine uses."""
 
     code = "foreign-attribute"
-    template = "the attribute {attribute} of {namespace} has no effect here"
+    template = "{attributes} of {namespace} has no effect here"
     warning = WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
-    attribute: str
+    attributes: tuple[str, ...]
     namespace: str
+
+    @classmethod
+    def of(cls, attributes: Iterable[tuple[str, str]]) -> list[Fault]:
+        """One fault for each namespace of some attributes, which are given as namespace and name."""
+        by_namespace: dict[str, list[str]] = {}
+        for namespace, name in attributes:
+            by_namespace.setdefault(namespace, []).append(name)
+        return [cls(attributes=tuple(names), namespace=each) for each, names in by_namespace.items()]
 
 
 class NoCounterpart(Fault):

@@ -203,17 +203,14 @@ def _foreign_attributes(block: BehaviorBlock | DefineProc, rehearsal: Rehearsal)
     The attributes of a foreign behavior without an engine are not reported, because only an engine can judge them.
     """
     if isinstance(block, BehaviorBlock):
-        yield from (_problem(fault, block) for fault in _foreign(block.extensions.keys() - BLOCK_EXTENSIONS))
+        unknown = (name for name in block.extensions if name not in BLOCK_EXTENSIONS)
+        yield from (_problem(fault, block) for fault in ForeignAttribute.of(unknown))
     for behavior in block.behaviors:
         engine = rehearsal.engines.get(behavior.id)
         known = engine.extensions if engine is not None else frozenset()
         if engine is not None or not isinstance(behavior, ForeignBehavior):
             unknown = (name for name in behavior.extensions if name not in known)
-            yield from (_problem(fault, block, behavior) for fault in _foreign(unknown))
-
-
-def _foreign(attributes: Iterable[tuple[str, str]]) -> Iterator[Fault]:
-    return (ForeignAttribute(attribute=name, namespace=namespace) for namespace, name in attributes)
+            yield from (_problem(fault, block, behavior) for fault in ForeignAttribute.of(unknown))
 
 
 def _unknown_behaviors(block: BehaviorBlock | DefineProc) -> Iterator[Problem]:

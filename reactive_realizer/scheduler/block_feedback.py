@@ -79,9 +79,8 @@ class BlockFeedback:
         self, block: BlockKey, element: BehaviorBlock | Behavior, known: Container[tuple[str, str]] = ()
     ) -> None:
         """Warn of the attributes of other namespaces that are not known."""
-        for namespace, name in element.extensions:
-            if (namespace, name) not in known:
-                self.warn_element(block, element, ForeignAttribute(attribute=name, namespace=namespace))
+        for fault in ForeignAttribute.of(name for name in element.extensions if name not in known):
+            self.warn_element(block, element, fault)
 
     def warn_behavior(self, unit: PlanUnit, fault: Fault) -> None:
         """Warn of a behavior in a plan, with its place in the document."""

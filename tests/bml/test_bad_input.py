@@ -160,7 +160,7 @@ KEPT = {
     "control characters, ':' or '+', and cannot be 'bml'",
     SAY.format('so <sync id="a" pace="2"/>'): "unknown attribute pace of <sync>; known: id, time",
     SAY.format('so <sync id="a"><b>very</b></sync>'): "unknown b in <sync>; known: none",
-    SAY.format('so <sync id="a" xmlns:u="urn:u" u:pace="2"/>'): "the attribute pace of urn:u has no effect here",
+    SAY.format('so <sync id="a" xmlns:u="urn:u" u:pace="2"/>'): "pace of urn:u has no effect here",
     '<speech id="x"><text pace="2">so</text></speech>': "unknown attribute pace of <text>; known: none",
     '<wait id="x"><description type="t"/></wait>': "<description> requires the attribute 'priority'",
     '<wait id="x"><description type="t" priority="high"/></wait>': "priority='high' of <description>: "

@@ -44,7 +44,10 @@ MISTAKES = {
     '<locomotion id="l" target="viewre"/>': ("b:l", "no-target", "there is no target 'viewre'", "viewer"),
     '<dance xmlns="urn:f" id="d"/>': ("b:d", "foreign-not-supported", "<dance> of urn:f is left out", None),
     '<wait id="w" duration="1" xmlns:f="urn:f" f:mood="1"/>': (
-        "b:w", "foreign-attribute", "the attribute mood of urn:f has no effect", None,
+        "b:w", "foreign-attribute", "mood of urn:f has no effect", None,
+    ),
+    '<wait id="w" duration="1" xmlns:f="urn:f" f:mood="1" f:pace="2"/>': (
+        "b:w", "foreign-attribute", "mood, pace of urn:f has no effect", None,
     ),
     '<wait id="w" start="hed:end"/><wait id="head" duration="1"/>': (
         "b:w", "unknown-owner", "'hed' is neither a behavior", "head",

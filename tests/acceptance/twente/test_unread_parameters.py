@@ -52,5 +52,5 @@ async def test_a_foreign_attribute_of_a_parameter_is_reported_and_the_parameter_
     pilot.block("b", f'<head id="x" lexeme="NOD"><bmlt:parameter name="amount" value="0.4" {unit}/></head>')
     await pilot.advance(2)
     assert pilot.feedback.warnings == [("b:x", "CUSTOM_ATTRIBUTE_NOT_SUPPORTED")]
-    assert "the attribute unit of urn:units has no effect here" in told(pilot)
+    assert "unit of urn:units has no effect here" in told(pilot)
     assert pilot.feedback.reached("b:x:end")
