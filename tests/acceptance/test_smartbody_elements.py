@@ -80,3 +80,40 @@ async def test_what_names_a_clip_plays_the_file_of_that_name(
         raised = turns(pilot, "l_shoulder")
     assert pilot.feedback.warnings == []
     assert np.abs(raised[:, 1]).max() > 0.5
+
+
+MOTION = """SkMotion
+channels 2
+l_shoulder Quat
+l_elbow Quat
+frames 3
+kt 0 fr 0 0 -1.5 0 -0.2 0
+kt 0.5 fr 0 0 0.5 0 -0.2 0
+kt 1.5 fr 0 0 -1.5 0 -0.2 0
+ready time: 0.4
+emphasis time: 0.5
+relax time: 0.9
+"""
+
+
+async def test_the_emphasis_of_a_motion_is_where_the_stroke_is_tied(open_still: OpenStill, tmp_path: Path) -> None:
+    (tmp_path / "Brad@Raise.skm").write_text(MOTION)
+    async with open_still(tmp_path) as pilot:
+        speech = '<speech id="s">Up with <mark name="w"/>all your hands</speech>'
+        pilot.perform(act(f'{speech}<animation id="a" name="Brad@Raise" stroke="s:w+1"/>'))
+        await pilot.advance(3)
+        told, raised = pilot.feedback, turns(pilot, "l_shoulder")
+    assert told.warnings == []
+    stroke = told.time("document1:a:stroke")
+    assert stroke == told.time("document1:s:w") + 1.0
+    assert np.argmax(np.abs(raised[:, 3])) == pytest.approx(50 * stroke, abs=2)
+
+
+async def test_the_posture_of_a_body_may_be_the_first_frame_of_a_motion(open_still: OpenStill, tmp_path: Path) -> None:
+    (tmp_path / "Brad@Idle02.skm").write_text(MOTION.replace("kt 0 fr 0 0 -1.5", "kt 0 fr 0 0 -0.9"))
+    async with open_still(tmp_path) as pilot:
+        pilot.perform(act('<body posture="Brad@Idle02"/>'))
+        await pilot.advance(3)
+        shown = turns(pilot, "l_shoulder")
+    assert pilot.feedback.warnings == []
+    assert 2.0 * np.degrees(np.arcsin(shown[-1, 3])) == pytest.approx(90.0 - np.degrees(0.9), abs=3.0)

@@ -26,7 +26,7 @@ def assets(tmp_path: Path) -> Path:
     """The folder of assets on the page."""
     folder = tmp_path / "my_assets"
     folder.mkdir()
-    for fence in fences(PAGE, "xml"):
+    for fence in (*fences(PAGE, "xml"), *fences(PAGE, "text")):
         if fence.note.startswith("my_assets/"):
             (tmp_path / fence.note).write_text(fence.text, encoding="utf-8")
     return folder
@@ -57,6 +57,16 @@ async def test_the_block_on_the_page_plays_with_the_files_on_the_page(assets: Pa
     assert moved(pilot, "r_wrist", "play:ball") > 0.3
     assert moved(pilot, "l_wrist", "play:ball") < 0.05
     assert min(moved(pilot, "l_wrist", "play:come"), moved(pilot, "r_wrist", "play:come")) > 0.2
+
+
+async def test_the_emphasis_of_the_motion_of_smartbody_is_on_the_word(assets: Path) -> None:
+    (example,) = [fence for fence in fences(PAGE, "xml") if fence.note == "plays Figure@Raise01"]
+    pilot = await play(assets, example.text)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("b:raise:stroke") == told.time("b:s:up")
+    assert told.time("b:raise:end") - told.time("b:raise:start") == pytest.approx(1.4, abs=0.011)
+    assert moved(pilot, "l_wrist", "b:raise") > 0.3
 
 
 async def test_a_gentle_interrupt_ends_the_catch_at_its_next_exit(assets: Path) -> None:

@@ -34,8 +34,8 @@ def test_the_joints_of_the_file_are_where_those_of_the_frames_are(bml: Callable[
     frames, capture = np.load(npz), read_capture(bvh)
     assert capture.joints[0].name == "HumanoidRoot"
     assert {joint.name for joint in capture.joints} == set(frames["joints"])
-    assert capture.step == 0.02
-    assert len(capture.frames) == len(frames["time"])
+    assert capture.times[1] == 0.02
+    assert len(capture.times) == len(frames["time"])
     turns, parents = frames["rotations"], frames["parents"]
     world, places = [turns[:, 0]], [frames["root"]]
     for i, parent in enumerate(parents[1:], 1):

@@ -290,7 +290,7 @@ class BadExpression(CreationFault):
 
 
 class BadCapture(CreationFault):
-    """A BVH file that cannot be used; ``row`` is its line."""
+    """A file of a capture that cannot be used; ``row`` is its line."""
 
     code = "bad-capture"
     template = "{file}, line {row}: {reason}"

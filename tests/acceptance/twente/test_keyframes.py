@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.engines.animation.keyframe import clip_files
 from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.capture import Capture
-from reactive_realizer.engines.animation.motions import keyframe
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 from .motions import BOW, WAVE, after_start, angles, told
@@ -75,7 +75,7 @@ async def test_a_capture_is_read_once_in_another_thread_even_if_it_is_invalid(
         threads.append(current_thread())
         return read_capture(path)
 
-    monkeypatch.setattr(keyframe, "read_capture", read)
+    monkeypatch.setattr(clip_files, "read_capture", read)
     (tmp_path / "captures" / "bow.bvh").write_text(BOW.replace("Frames: 3", f"Frames: {frames}"))
     pilot.block("b", '<bmlt:keyframe id="k" name="bow" start="0"/><wait id="w" start="0" end="1"/>')
     await pilot.advance(2)

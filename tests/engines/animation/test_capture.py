@@ -16,9 +16,10 @@ from reactive_realizer.embodiment.quaternion import rotate
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
 from reactive_realizer.engines.animation.keyframe.capture import Capture
+from reactive_realizer.engines.animation.keyframe.clip_files import load_clip
 from reactive_realizer.engines.animation.keyframe.retarget import retargeted
 from reactive_realizer.engines.animation.motion_unit import Moment
-from reactive_realizer.engines.animation.motions.keyframe import KeyframeMotionUnit, load_clip
+from reactive_realizer.engines.animation.motions.keyframe import KeyframeMotionUnit
 from reactive_realizer.errors import RealizerError
 
 from .capturing import T_POSE, Turns, assert_same_directions, bvh
@@ -85,7 +86,7 @@ def test_white_space_in_a_file_has_no_effect(
 ) -> None:
     text = bvh({}, {"LeftArm": (50.0, 40.0, 30.0)})
     plain, other = capture(text), capture(rewritten(text))
-    assert (other.joints, other.step, other.frames.tolist()) == (plain.joints, plain.step, plain.frames.tolist())
+    assert (other.joints, other.times, other.turns.tolist()) == (plain.joints, plain.times, plain.turns.tolist())
 
 
 def test_the_figure_starts_where_it_stands_and_faces(capture: Callable[[str], Capture], skeleton: Skeleton) -> None:
@@ -178,7 +179,7 @@ def test_errors_name_the_line(capture: Callable[[str], Capture], text: str, mess
 
 
 def test_a_file_that_counts_one_frame_more_than_it_has_is_read(capture: Callable[[str], Capture]) -> None:
-    assert len(capture(bvh({}, {}, {}).replace("Frames: 3", "Frames: 4")).frames) == 3
+    assert len(capture(bvh({}, {}, {}).replace("Frames: 3", "Frames: 4")).times) == 3
 
 
 def test_a_capture_with_unknown_joints_is_refused(capture: Callable[[str], Capture], skeleton: Skeleton) -> None:

@@ -1,6 +1,8 @@
 """Posture files of a user."""
 
+import math
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,6 +16,8 @@ from reactive_realizer.engines.animation.posture.posture_library import BodyPost
 from reactive_realizer.errors import RealizerError
 
 from .bodies import ASSET, apart, body_in, posture
+from .capturing import Turns, bvh
+from .smartbody_files import sk, skm
 
 
 @pytest.fixture
@@ -103,3 +107,32 @@ def test_a_posture_file_that_moves_the_root_too_far_is_refused(skeleton: Skeleto
     )
     with pytest.raises(RealizerError, match="HumanoidRoot's place"):
         PostureLibrary(skeleton, Assets((own,))).body(posture(WHOLEBODY="ARMS_UP"))
+
+
+CROUCH: Turns = {f"{side}UpLeg": (0.0, -60.0, 0.0) for side in ("Left", "Right")} | {
+    f"{side}Leg": (0.0, 120.0, 0.0) for side in ("Left", "Right")
+}
+
+
+@pytest.mark.parametrize(("suffix", "written"), [("bvh", bvh), ("skm", skm)])
+def test_the_name_of_a_capture_is_the_pose_of_its_first_frame(
+    skeleton: Skeleton, own: Path, suffix: str, written: Callable[..., str]
+) -> None:
+    pose: Turns = {**CROUCH, "LeftArm": (-60.0, 0.0, 0.0), "Head": (0.0, 20.0, 0.0)}
+    (own / "clips").mkdir()
+    (own / "clips" / "Brad.sk").write_text(sk())
+    (own / "clips" / f"Brad@Crouch01.{suffix}").write_text(written(pose, {}))
+    library = PostureLibrary(skeleton, Assets((own,)))
+    body = library.body(posture(WHOLEBODY="Brad@Crouch01"))
+    assert angle(body.rotation("skullbase")) == pytest.approx(math.radians(20.0))
+    assert body.transform("l_knee").position[2] > body.transform("l_hip").position[2] + 0.2
+    assert body.root[1] < -0.1
+    arms = library.body(posture(ARMS="Brad@Crouch01"))
+    assert arms.rotation("l_shoulder") == pytest.approx(body.rotation("l_shoulder"))
+    assert arms.rotation("skullbase") == library.body(posture()).rotation("skullbase")
+
+
+def test_a_capture_that_cannot_be_read_is_refused_as_a_pose(skeleton: Skeleton, own: Path) -> None:
+    (own / "bad.skm").write_text("SkMotion\nchannels")
+    with pytest.raises(RealizerError, match=r"bad\.skm, line 2: the motion ends unexpectedly"):
+        PostureLibrary(skeleton, Assets((own,))).body(posture(WHOLEBODY="bad"))

@@ -13,8 +13,9 @@ from reactive_realizer.embodiment.pose import FARTHEST
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, between, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.vector import UP, Vec3, distance, dot, length, subtract, unit
 from reactive_realizer.engines.animation.faults import BadCapture
-from reactive_realizer.engines.animation.keyframe.capture import Array, Capture, inverse, map_joints, product, rotated
-from reactive_realizer.engines.animation.keyframe.clip import Clip, continuous
+from reactive_realizer.engines.animation.keyframe.capture import Array, Capture, inverse, product, rotated
+from reactive_realizer.engines.animation.keyframe.clip import Clip, KeyPoint, continuous
+from reactive_realizer.engines.animation.keyframe.joint_mapping import map_joints
 from reactive_realizer.errors import RealizerError
 
 _UPRIGHT = cos(radians(30.0))
@@ -42,7 +43,7 @@ class ReferencePose:
 def reference_pose(capture: Capture, joints: Mapping[str, int], rotations: Array) -> ReferencePose | None:
     """Return the reference pose of a capture; None if the figure stands upright in neither candidate.
 
-    The first candidate is the figure without rotations. In many files (Maya, Rokoko, Bandai Namco) this is not a pose,
+    The first candidate is the figure without motion. In many BVH files (Maya, Rokoko, Bandai Namco) this is not a pose,
     because each joint has its own axes along its bone. The second is the first frame, in which trunk, hands and feet
     are assumed to be at rest.
 
@@ -61,11 +62,10 @@ def reference_pose(capture: Capture, joints: Mapping[str, int], rotations: Array
 
 
 def _poses(capture: Capture, joints: Mapping[str, int], rotations: Array) -> Iterator[tuple[Positions, Array]]:
-    unturned = np.zeros_like(rotations[0])
-    unturned[:, 0] = 1.0
-    resting = {joint: capture.rest_position(index) for joint, index in joints.items()}
+    rests = capture.rests()
+    resting = {joint: capture.rest_position(index, rests) for joint, index in joints.items()}
     if _is_a_pose(resting):
-        yield resting, unturned
+        yield resting, rests
     first = {joint: capture.positions(index, rotations[:1])[0].tolist() for joint, index in joints.items()}
     yield {joint: (x, y, z) for joint, (x, y, z) in first.items()}, rotations[0]
 
@@ -100,6 +100,8 @@ def _turned(turn: Quat, positions: Positions) -> Positions:
 
 
 _NEEDED = (ROOT, "l_hip", "r_hip", "l_knee", "r_knee", "skullbase")
+_TWISTED = ("shoulder", "elbow", "hip", "knee")
+"""Joints of limbs whose bones have joints of their own for their twist in some figures, such as SmartBody's."""
 _CHILD = {"sternoclavicular": "shoulder", "shoulder": "elbow", "elbow": "wrist", "hip": "knee", "knee": "ankle"}
 
 
@@ -108,16 +110,19 @@ def retargeted(capture: Capture, skeleton: Skeleton) -> Clip:
 
     A bone of the figure is turned like the captured one, after the turn from its direction in the default pose to that
     of the captured bone in the reference pose; so a T-pose works as well as hanging arms. Joints that only one of the
-    figures has are left out. Displacements of the root are scaled by the lengths of the thighs. The figure starts where
-    it stands and faces, wherever the captured figure started.
+    figures has are left out, but the twist of a limb between two joints belongs to the upper one. Displacements of the
+    root are scaled by the lengths of the thighs. The figure starts where it stands and faces, wherever the captured
+    figure started.
 
     Raises:
         RealizerError: "bad-capture": its joints are unknown, the figure does not stand upright, or it moves too far.
     """
     source = _CapturedFigure(capture, skeleton)
-    rotations, joints = source.rotations(), tuple(source.joints)
-    times = tuple((np.arange(len(rotations)) * capture.step).tolist())
-    return Clip(capture.name, times, joints, continuous(rotations), source.roots())
+    played = source.played()
+    rotations = continuous(source.rotations(played))
+    points = {sync: KeyPoint(time) for sync, time in capture.points.items()}
+    roots = source.roots() if ROOT in played else None
+    return Clip(capture.name, capture.times, played, rotations, roots, points)
 
 
 class _CapturedFigure:
@@ -139,6 +144,7 @@ class _CapturedFigure:
         stance = reference_pose(capture, self.joints, self._rotations)
         if stance is None:
             raise self._bad("the figure stands upright neither without rotations nor in its first frame")
+        self._bearing = {joint: self._bearer(joint) for joint in self.joints}
         self._positions = stance.positions
         turn = np.array(stance.axes)
         turned = product(product(turn, product(self._rotations, inverse(stance.pose))), inverse(turn))
@@ -146,10 +152,12 @@ class _CapturedFigure:
         self._turned = product(ahead, turned)
         self._axes = product(ahead, turn)
 
-    def rotations(self) -> Array:
-        """Return (F, J, 4), local to the parent joints in the skeleton."""
-        own = {joint: product(self._turned[:, i], np.array(self._alignment(joint))) for joint, i in self.joints.items()}
-        return np.stack([self._local(joint, own) for joint in self.joints], axis=1)
+    def rotations(self, played: tuple[str, ...]) -> Array:
+        """Return the rotations of some joints, (F, J, 4), each local to the one above it among them."""
+        turned = {joint: self._turned[:, self._bearing[joint]] for joint in played}
+        own = {joint: product(turned[joint], np.array(self._alignment(joint))) for joint in played}
+        steps = [self._local(joint, own) for joint in played]
+        return np.stack(steps, axis=1) if steps else np.zeros((len(self._turned), 0, 4))
 
     def roots(self) -> Array:
         """Return the displacement of the root from the first frame, (F, 3), m."""
@@ -159,6 +167,30 @@ class _CapturedFigure:
         if not (np.linalg.norm(turned, axis=-1) <= FARTHEST).all():
             raise self._bad(f"the root moves further than {FARTHEST:g} m, scaled by the length of the thighs")
         return turned
+
+    def played(self) -> tuple[str, ...]:
+        """Return the joints that the motion is about."""
+        about = self._capture.played
+        return tuple(joint for joint in self.joints if about is None or about.intersection(self._turning(joint)))
+
+    def _turning(self, joint: str) -> tuple[int, ...]:
+        """Return the captured joints whose rotations are that of a joint, from the last one up."""
+        index, turning = self._bearing[joint], []
+        while index != self.joints[joint]:
+            turning.append(index)
+            index = self._capture.joints[index].parent
+        return (*turning, index)
+
+    def _bearer(self, joint: str) -> int:
+        """Return the captured joint that turns with a bone: the last of those that twist it, if it has any."""
+        index = self.joints[joint]
+        child = next(iter(_children(joint)), None) if joint.partition("_")[2] in _TWISTED else None
+        if child is None or child not in self.joints:
+            return index
+        above = last = self._capture.joints[self.joints[child]].parent
+        while above >= 0 and above != index:
+            above = self._capture.joints[above].parent
+        return last if above == index else index
 
     def _alignment(self, joint: str) -> Quat:
         """Return the turn from a bone in the default pose to the captured one: the smallest after its parent's."""

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from reactive_realizer.bml.extensions import Keyframe
 from reactive_realizer.bml.vocabulary import BodyGroup
-from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.feet import grounded
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.vector import add
@@ -15,12 +15,10 @@ from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGroup, NoJoints
 from reactive_realizer.engines.animation.inertialization import InertializedStart, start_duration
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
-from reactive_realizer.engines.animation.keyframe.bvh_reader import read_capture
-from reactive_realizer.engines.animation.keyframe.capture import Capture
 from reactive_realizer.engines.animation.keyframe.clip import Clip
 from reactive_realizer.engines.animation.keyframe.clip_durations import shortest_clip_parts
-from reactive_realizer.engines.animation.keyframe.keyframe_files import read_interpolator_file, read_interpolator_text
-from reactive_realizer.engines.animation.keyframe.retarget import retargeted
+from reactive_realizer.engines.animation.keyframe.clip_files import CLIPS, load_clip, preload_clip
+from reactive_realizer.engines.animation.keyframe.keyframe_files import read_interpolator_text
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import (
@@ -32,56 +30,8 @@ from reactive_realizer.engines.animation.motion_unit import (
     ordered,
     resources_used,
 )
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import RealizerError
 from reactive_realizer.planunit.parameter import Range
-
-_CAPTURE_CUTOFF = 20.0
-"""Hz; the thesis recommends 15 to 25 Hz (3.2.2.2)."""
-
-
-def load_clip(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip:
-    """Load the motion of a file for one figure; changed files are read again.
-
-    Args:
-        path: of a SkeletonInterpolator, or of a capture in BVH.
-        skeleton: of the figure.
-        cutoff: of the low-pass filter, Hz; 0 does not filter. None is the default of the kind of file: captures have
-            noise, keyframe animations have none.
-
-    Raises:
-        RealizerError: the file is invalid, or does not fit the figure.
-    """
-    clip = preload_clip(path, skeleton, cutoff)
-    if isinstance(clip, Fault):
-        raise RealizerError(clip)
-    return clip
-
-
-def preload_clip(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip | Fault:
-    """Return the result or the fault of `load_clip`, and cache it: reading and filtering a capture may take seconds."""
-    return _read(path, path.stat().st_mtime_ns, skeleton, cutoff)
-
-
-@lru_cache(32)
-def _read(path: Path, changed: int, skeleton: Skeleton, cutoff: float | None) -> Clip | Fault:
-    try:
-        return _clip(path, changed, skeleton, cutoff)
-    except RealizerError as problem:
-        return problem.fault
-
-
-def _clip(path: Path, changed: int, skeleton: Skeleton, cutoff: float | None) -> Clip:
-    captured = path.suffix.lower() == ".bvh"
-    clip = retargeted(_capture(path, changed), skeleton) if captured else read_interpolator_file(path)
-    usual = _CAPTURE_CUTOFF if captured else 0.0
-    return clip.filtered(usual if cutoff is None else cutoff)
-
-
-@lru_cache(8)
-def _capture(path: Path, changed: int) -> Capture:
-    """Read a capture once for all figures."""
-    return read_capture(path)
-
 
 FILTER = "filter"
 """Parameter for the cutoff frequency of the low-pass filter, Hz."""
@@ -220,7 +170,7 @@ class KeyframeMaker:
         return load_clip(self._file(request), self._skeleton, _cutoff(request))
 
     def _file(self, request: MotionRequest) -> Path:
-        return self._context.file_of(request, "xml", "bvh")
+        return self._context.file_of(request, *CLIPS)
 
 
 @lru_cache

@@ -18,9 +18,9 @@ from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, Dir
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
 from reactive_realizer.engines.animation.key_poses.head_pose import HEAD_AXES, WEIGHTS, HeadPose
 from reactive_realizer.engines.animation.key_poses.solved_pose import SolvedPose
+from reactive_realizer.engines.animation.keyframe.clip_files import CLIPS, is_capture, load_clip
 from reactive_realizer.engines.animation.keyframe.keyframe_files import read_skeleton_pose
 from reactive_realizer.engines.animation.motion_maker import MakerContext
-from reactive_realizer.engines.animation.motions.keyframe import load_clip
 from reactive_realizer.errors import Fault, RealizerError
 
 _ARMS: Final = {BodyGroup.LEFT_ARM: "l", BodyGroup.RIGHT_ARM: "r"}
@@ -172,7 +172,7 @@ def stored_pose(name: str, group: BodyGroup, context: MakerContext) -> Mapping[s
     """
     skeleton = context.humanoid.avatar.skeleton
     joints = frozenset(group_joints(group, skeleton))
-    path = first_asset(context.asset, f"**/{name}.xml", f"**/{name}.bvh")
+    path = first_asset(context.asset, *(f"**/{name}.{suffix}" for suffix in CLIPS))
     pose = _stored(path, path.stat().st_mtime_ns, skeleton)
     own = {joint: turn for joint, turn in pose.items() if joint in joints}
     if not own:
@@ -186,7 +186,7 @@ def stored_pose(name: str, group: BodyGroup, context: MakerContext) -> Mapping[s
 @lru_cache(256)
 def _stored(path: Path, changed: int, skeleton: Skeleton) -> Mapping[str, Quat]:
     """Return the rotations of a file; of a capture, those of its last frame."""
-    if path.suffix.lower() == ".bvh":
+    if is_capture(path):
         clip = load_clip(path, skeleton, 0.0)
         return clip.rotations_at(clip.times[-1])
     return read_skeleton_pose(path)

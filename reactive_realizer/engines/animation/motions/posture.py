@@ -1,7 +1,9 @@
 """Postures as motions: taking a posture, and leaving it."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
+from pathlib import Path
 from types import MappingProxyType
 
 from reactive_realizer.bml.behaviors import Pose, Posture, PostureShift
@@ -14,6 +16,7 @@ from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
 from reactive_realizer.embodiment.vector import distance
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import WrongElement
+from reactive_realizer.engines.animation.keyframe.clip_files import preload_clip
 from reactive_realizer.engines.animation.kinematics import path_length
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_unit import (
@@ -170,6 +173,7 @@ class PostureMaker:
 
     def __init__(self, context: MakerContext) -> None:
         self._rest = context.rest
+        self._skeleton = context.humanoid.avatar.skeleton
 
     def __call__(self, request: MotionRequest) -> PostureMotionUnit:
         """Make a motion."""
@@ -178,6 +182,16 @@ class PostureMaker:
             raise RealizerError(WrongElement(unit="posture", element=behavior.name))
         shift = isinstance(behavior, PostureShift)
         return PostureMotionUnit(self._rest, behavior.stance, behavior.poses, shift=shift)
+
+    def preload(self, request: MotionRequest) -> Callable[[], object] | None:
+        """Return the work of reading captures with poses of the posture; None if there are none."""
+        behavior = request.behavior
+        files = self._rest.captures(behavior.stance, behavior.poses) if isinstance(behavior, Posture) else []
+        return partial(self._load, files) if files else None
+
+    def _load(self, files: Iterable[Path]) -> None:
+        for file in files:
+            preload_clip(file, self._skeleton, 0.0)
 
 
 def posture_after(posture: BodyPosture, motions: Iterable[MotionUnit]) -> BodyPosture:

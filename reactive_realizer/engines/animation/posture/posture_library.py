@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -11,7 +12,7 @@ from reactive_realizer.binding.faults import NoAsset
 from reactive_realizer.binding.gesture_binding import RestPose
 from reactive_realizer.bml.behaviors import Pose
 from reactive_realizer.bml.vocabulary import PosePart, StanceType
-from reactive_realizer.embodiment.body import Body, Skeleton
+from reactive_realizer.embodiment.body import Body, JointRotations, Skeleton
 from reactive_realizer.embodiment.feet import grounded
 from reactive_realizer.embodiment.joints import (
     HEAD,
@@ -28,6 +29,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat
 from reactive_realizer.embodiment.vector import distance, length
 from reactive_realizer.engines.animation.faults import NoPosture
+from reactive_realizer.engines.animation.keyframe.clip_files import CAPTURES, is_capture, load_clip
 from reactive_realizer.engines.animation.keyframe.keyframe_files import read_skeleton_pose
 from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
 from reactive_realizer.engines.animation.procedural.procedural_animation_reader import load_animation
@@ -99,7 +101,8 @@ class PostureLibrary:
     stance, else `postures/LEXEME.xml`, in lower case; a new file is a new lexeme. Each file is a ProcAnimation, of
     which the pose at phase 0 is used. These parameters are set: the lengths `upperarm`, `forearm`, `thigh`, `shank`,
     and the widths `shoulders` and `hips`, m; and `rootx`, `rooty`, `rootz`, the position of HumanoidRoot in the
-    figure's frame, m. So hands meet for any proportions. A lexeme that ends in NEUTRAL is the stance alone.
+    figure's frame, m. So hands meet for any proportions. A lexeme that ends in NEUTRAL is the stance alone. The name of
+    a capture among the assets is a lexeme too: the pose of its first frame.
     """
 
     def __init__(self, skeleton: Skeleton, asset: Callable[[str], Path], rest_poses: Sequence[RestPose] = ()) -> None:
@@ -128,12 +131,14 @@ class PostureLibrary:
         stand, bound = self._stand(posture.stance), self._bound(posture)
         body = stand if bound is None else _turned(stand, self._rotations(bound))
         for pose in sorted(_unbound(posture, bound), key=lambda pose: _ORDER.index(pose.part)):
-            animation = self._animation(posture.stance, pose)
-            if animation is None:
-                joints = PART_JOINTS[pose.part] & body.pose.keys()
-                body = _turned(body, {joint: stand.rotation(joint) for joint in joints})
-            else:
-                body = self._taken(animation, body)
+            match self._shape(posture.stance, pose):
+                case None:
+                    joints = PART_JOINTS[pose.part] & body.pose.keys()
+                    body = _turned(body, {joint: stand.rotation(joint) for joint in joints})
+                case ProceduralAnimation() as animation:
+                    body = self._taken(animation, body)
+                case rotations:
+                    body = _turned(body, rotations)
         return body
 
     def check(self, posture: BodyPosture) -> None:
@@ -143,7 +148,16 @@ class PostureLibrary:
             RealizerError: as for `body`.
         """
         for pose in _unbound(posture, self._bound(posture)):
-            self._animation(posture.stance, pose)
+            self._shape(posture.stance, pose)
+
+    def captures(self, stance: StanceType, poses: Iterable[Pose]) -> list[Path]:
+        """Return the files of poses that are those of captures; they take long to read."""
+        found: list[Path] = []
+        for pose in poses:
+            with suppress(RealizerError):
+                file = self._file(stance, pose.lexeme)
+                found += [file] if file is not None and is_capture(file) else []
+        return found
 
     def possible(self, posture: BodyPosture) -> BodyPosture:
         """Return a posture without the poses that do not exist in its stance."""
@@ -175,8 +189,8 @@ class PostureLibrary:
             return {}
         return {joint: turn for joint, turn in rotations.items() if joint in self._skeleton}
 
-    def _animation(self, stance: StanceType, pose: Pose) -> ProceduralAnimation | None:
-        """Return the animation of a pose; None if the pose is that of the stance."""
+    def _shape(self, stance: StanceType, pose: Pose) -> ProceduralAnimation | JointRotations | None:
+        """Return the animation or the rotations of a pose; None if the pose is that of the stance."""
         try:
             file = self._file(stance, pose.lexeme)
         except RealizerError as problem:
@@ -184,12 +198,18 @@ class PostureLibrary:
                 raise
             known = tuple(word for word in LEXEMES if self._is_there(stance, Pose(part=pose.part, lexeme=word)))
             raise RealizerError(NoPosture(part=pose.part, lexeme=pose.lexeme, stance=stance, known=known)) from problem
-        return None if file is None else load_animation(file, self._skeleton, joints=PART_JOINTS[pose.part])
+        return None if file is None else self._read(file, pose.part)
+
+    def _read(self, file: Path, part: PosePart) -> ProceduralAnimation | JointRotations:
+        if not is_capture(file):
+            return load_animation(file, self._skeleton, joints=PART_JOINTS[part])
+        clip = load_clip(file, self._skeleton, 0.0)
+        return clip.only(PART_JOINTS[part]).rotations_at(clip.times[0])
 
     def _is_there(self, stance: StanceType, pose: Pose) -> bool:
         try:
             if (file := self._file(stance, pose.lexeme)) is not None:
-                load_animation(file, self._skeleton, joints=PART_JOINTS[pose.part])
+                self._read(file, pose.part)
         except RealizerError:
             return False
         return True
@@ -198,7 +218,8 @@ class PostureLibrary:
         word = _word(lexeme).lower()
         if word.endswith("_neutral"):
             return None
-        return first_asset(self._asset, f"postures/{stance.value.lower()}/{word}.xml", f"postures/{word}.xml")
+        own = (f"postures/{stance.value.lower()}/{word}.xml", f"postures/{word}.xml")
+        return first_asset(self._asset, *own, *(f"**/{lexeme.strip()}.{suffix}" for suffix in CAPTURES))
 
     def _taken(self, animation: ProceduralAnimation, body: Body) -> Body:
         # Hands may depend on the root, and the root on the legs, which are known only after a first pass.

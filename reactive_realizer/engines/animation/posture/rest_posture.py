@@ -1,7 +1,10 @@
 """The rest posture of a figure."""
 
 from collections.abc import Callable, Iterable
+from pathlib import Path
 
+from reactive_realizer.bml.behaviors import Pose
+from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.clearance import Clear
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
@@ -76,6 +79,15 @@ class RestPosture:
             RealizerError: it does not.
         """
         self._library.check(posture)
+
+    def captures(self, stance: StanceType | None, poses: Iterable[Pose]) -> list[Path]:
+        """Return the files of those poses that are the first frame of a capture.
+
+        Args:
+            stance: None for that of the expected posture.
+            poses: of parts of the body.
+        """
+        return self._library.captures(stance or self.expected.stance, poses)
 
     def in_posture(self, posture: BodyPosture) -> Body:
         """Return the body in a posture.
