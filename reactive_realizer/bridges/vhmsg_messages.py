@@ -5,20 +5,28 @@ programs do not encode it.
 """
 
 import re
-from collections.abc import Container
+from collections.abc import Container, Iterator
 from itertools import chain, count
 from typing import Final, NamedTuple
 from urllib.parse import quote_plus, unquote_plus
 
 from lxml import etree
 
+from reactive_realizer.bml.smartbody.requests import with_closed_marks
+
 _SPEAK: Final = "vrSpeak"
 _AGENT_BML: Final = "vrAgentBML"
 _REQUEST: Final = "request"
+_COMMAND: Final = "sbm"
+_PLAY: Final = re.compile(r"bml\s+char\s+(\S+)\s+(?=<)")
+"""What a command of SmartBody that plays BML begins with."""
 _PROLOG: Final = re.compile(r"\s*(?:<\?xml\b.*?\?>)?\s*(?:<!DOCTYPE[^\[>]*>)?", re.DOTALL)
 _ROOT: Final = '<_ xmlns:sbm="urn:smartbody">{}</_>'
 """Scripts of SmartBody use its prefix without declaring it."""
 _NO_ID: Final = re.compile(r"[^\w.-]")
+_ACT: Final = "act"
+_PARTICIPANT: Final = "participant"
+_BLOCK: Final = "bml"
 
 
 class VhMessage(NamedTuple):
@@ -41,13 +49,13 @@ class VhMessage(NamedTuple):
 
 
 class Act(NamedTuple):
-    """A request to an agent to behave (``vrSpeak``, or ``vrAgentBML request``).
+    """A request to an agent to behave (``vrSpeak``, ``vrAgentBML request``, or ``sbm bml char``).
 
     Attributes:
         agent: who behaves.
-        recipient: who is addressed.
-        name: of the request.
-        xml: its BML, in an ``<act>`` or not.
+        recipient: who is addressed; a command addresses all.
+        name: of the request; a command has none of its own.
+        xml: its BML, in an ``<act>`` or not, or behaviors alone; marks may lack their end tags, as SmartBody allows.
     """
 
     agent: str
@@ -59,6 +67,8 @@ class Act(NamedTuple):
     def of(cls, message: VhMessage) -> "Act | None":
         """The request in a message, if it is one."""
         word, argument = message
+        if word == _COMMAND and (command := _PLAY.match(argument)) is not None:
+            return cls(command[1], "all", _COMMAND, argument[command.end() :])
         if word == _AGENT_BML and argument.startswith(f"{_REQUEST} "):
             word, argument = _SPEAK, argument.removeprefix(_REQUEST)
         parts = argument.split(maxsplit=3)
@@ -84,15 +94,15 @@ class Act(NamedTuple):
             taken: ids that are not free.
 
         Raises:
-            ValueError: the request is not well-formed XML, or has no block.
+            ValueError: the request is not well-formed XML, or has no behaviors.
         """
         try:
-            root = etree.fromstring(_ROOT.format(_PROLOG.sub("", self.xml, count=1)), _parser())
+            root = etree.fromstring(_ROOT.format(_PROLOG.sub("", with_closed_marks(self.xml), count=1)), _parser())
         except etree.XMLSyntaxError as problem:
             raise ValueError(str(problem)) from problem
-        blocks = list(root.iter("{*}bml"))
+        blocks = list(root.iter(f"{{*}}{_BLOCK}")) or list(_added_blocks(root))
         if not blocks:
-            raise ValueError("it has no <bml>")
+            raise ValueError("it has no <bml> and no behaviors")
         ids: list[str] = []
         for block in blocks:
             for name in ("character", "agent"):
@@ -101,6 +111,16 @@ class Act(NamedTuple):
             ids.append(_free(_NO_ID.sub("_", self.name), taken, ids))
             block.set("id", ids[-1])
         return "".join(etree.tostring(each, encoding="unicode", with_tail=False) for each in blocks), ids
+
+
+def _added_blocks(root: etree._Element) -> Iterator[etree._Element]:
+    """Move behaviors that stand alone, or directly in acts, into a block each, and yield these blocks."""
+    for parent in [root, *root.iter(_ACT)]:
+        behaviors = [child for child in parent.iterchildren("*") if child.tag not in (_ACT, _PARTICIPANT)]
+        if behaviors:
+            block = etree.SubElement(parent, _BLOCK)
+            block.extend(behaviors)
+            yield block
 
 
 def _parser() -> etree.XMLParser:

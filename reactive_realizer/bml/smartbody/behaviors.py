@@ -82,7 +82,7 @@ def _interrupt(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def _head(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites a movement of the head; its axis makes no difference in SmartBody either."""
+    """Rewrites a movement of the head; its axis and its duration make no difference in SmartBody either."""
     repeats = take_number(tree, "repeats", source, 0.0, MOST_REPETITIONS)
     velocity = take_number(tree, "velocity", source, 0.01, _MOST_VELOCITY)
     period = take_number(tree, "period", source, 0.01, _LONGEST)
@@ -99,7 +99,7 @@ def _head(tree: Tree, source: BlockSource) -> list[Fault]:
         tree.set("amount", f"{min(-amount, 1.0):g}")
         kind = tree.get("type", "")
         tree.set("type", _OPPOSITES.get(kind.upper(), kind))
-    drop(tree, "axis")
+    drop(tree, "axis", "duration", "smooth")
     return left_out(tree, source)
 
 

@@ -32,7 +32,7 @@ class Request(NamedTuple):
     @classmethod
     def read(cls, text: str) -> "Request":
         """The request in a text, which may be a document alone."""
-        text = _closed(text)
+        text = with_closed_marks(text)
         head = _HEAD.match(text)
         if head is None:
             return cls(text)
@@ -40,8 +40,8 @@ class Request(NamedTuple):
         return cls(blank + text[head.end() :], head["agent"], _NO_ID.sub("_", head["name"]))
 
 
-def _closed(document: str) -> str:
-    """A document whose marks have no end tags, with these elements closed."""
+def with_closed_marks(document: str) -> str:
+    """Return a document whose marks have no end tags with these elements closed; nothing in it moves."""
     if "<tm" not in document or "</tm" in document:
         return document
     return _OPEN_MARK.sub(rf"<{UNCLOSED_MARK}\1/>", document)
