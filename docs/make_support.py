@@ -93,6 +93,8 @@ _NOTES = {
     "parameter of any behavior name": "of [the motion that plays it](binding.md#kinds-of-motion)",
     "pose of a posture lexeme": "a lexeme of `pose` (see below), or of [your own file](human.md#postures)",
     "emit event": "its content, of any kind, is for planners",
+    "glance left": "degrees, as the character sees it",
+    "glance up": "degrees",
     "idleChange parameter": "breaths per minute, their depth relative to that at rest, blinks and glances per minute",
     "idleChange value": "reached at the end, evenly, and kept until another change",
     "keyPoses group": "the joints that move; only arms have `position` and `swivel`, and only heads `lookAt`",
@@ -185,7 +187,7 @@ otherwise the first one |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
-`keyPoses` and `idleChange` are in the namespace `urn:reactive-realizer:1`
+`keyPoses`, `glance` and `idleChange` are in the namespace `urn:reactive-realizer:1`
 ([key poses in BML](embrscript.md#key-poses-in-bml)). `murmlgesture` and `murmlface` are in the namespace
 `http://www.techfak.uni-bielefeld.de/ags/soa/murml` ([MURML](murml.md)).
 

@@ -40,6 +40,7 @@ from reactive_realizer.bml.extensions import (
     ProcAnimationGesture,
     Transition,
 )
+from reactive_realizer.bml.glance import Glance
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
@@ -137,6 +138,7 @@ _BEHAVIORS = (
     FacePlutchik,
     FaceKeyframe,
     KeyPoses,
+    Glance,
     IdleChange,
     MurmlGesture,
     MurmlFace,

@@ -44,6 +44,7 @@ from reactive_realizer.bml.extensions import (
     Trajectory,
     Transition,
 )
+from reactive_realizer.bml.glance import Glance
 from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
@@ -245,6 +246,7 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         {"group": BodyGroup.HEAD, "fade_in": 0.2, "fade_out": 0.3, "warp": WarpKind.EXP, "steepness": 3.0},
         ("start", "relax", "end"),
     ),
+    '<rr:glance id="x" left="5" up="-2.5"/>': (Glance, {"left": 5.0, "up": -2.5}, SHIFT),
     '<rr:idleChange id="x" parameter="BLINK_RATE" value="9"/>': (
         IdleChange,
         {"parameter": IdleParameter.BLINK_RATE, "value": 9.0},
@@ -304,7 +306,7 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
             inside = "".join(needed.get(child, "") for child in element.children)
             prefix = PREFIXES[element.namespace]
             values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
-            values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition"}
+            values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition", "left": "5", "up": "1"}
             values |= {"filename": "clap.wav", "group": "HEAD", "parameter": "BLINK_RATE"}
             values |= {
                 "targetname": "grin",

@@ -52,6 +52,7 @@ DRAFT = """
   <speech id="s"><text>Well, <mark name="w"/>look <tm id="x"/>there.</text></speech>
   <head type="NOD" repeats="2" stroke="s:w"/>
   <gaze target="bluebox" sbm:joint-range="EYES NECK" start="s:x"/>
+  <saccade magnitude="-6" direction="30" sbm:duration="0.3" start="s:x+1"/>
 </bml></act>
 """
 

@@ -15,6 +15,8 @@ from reactive_realizer.errors import Fault, RealizerError
 
 WITHOUT_EFFECT: Final = ("group", "priority", "participant")
 """Attributes that make no difference in SmartBody's motion either: they are for its tools and for generators."""
+OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax", "stroke_start", "stroke_end")
+"""Sync points of behaviors of SmartBody that are read as behaviors with a start and an end only."""
 _PREFIX: Final = f"{{{SBM}}}"
 
 

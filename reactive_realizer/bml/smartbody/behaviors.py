@@ -8,9 +8,7 @@ from typing import Final
 
 from reactive_realizer.bml.behaviors import MOST_REPETITIONS
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import UnknownWord
-from reactive_realizer.bml.idle_change import IdleParameter
-from reactive_realizer.bml.names import BMLA, OWN, SBM
+from reactive_realizer.bml.names import BMLA, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     WITHOUT_EFFECT,
     drop,
@@ -27,8 +25,9 @@ from reactive_realizer.bml.smartbody.gaze import adapt_gaze
 from reactive_realizer.bml.smartbody.gestures import adapt_clip, adapt_gesture
 from reactive_realizer.bml.smartbody.noise import adapt_noise
 from reactive_realizer.bml.smartbody.reaching import adapt_constraint, adapt_grab, adapt_reach, is_of_hand
+from reactive_realizer.bml.smartbody.saccades import adapt_saccade
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault
 
 _LONGEST: Final = 60.0
 _MOST_VELOCITY: Final = 20.0
@@ -42,10 +41,6 @@ _WAVES: Final = 3
 _OF_WALKERS: Final = {"speed": "speed", "facing": "facing", "proximity": "distance"}
 """Attributes of a locomotion, and the parameters that they are here."""
 _MANNERS: Final = {"JOG": "RUN", "SBM:STEP": "STRAFE", "SIDESTEP": "STRAFE"}
-_GLANCES: Final = {"listen": 7.2, "talk": 14.8, "think": 20.0}
-"""Glances per minute: of listeners and speakers after S. P. Lee, J. B. Badler and N. I. Badler, "Eyes Alive" (SIGGRAPH
-2002), whose model SmartBody uses too; of people who think, our choice."""
-_OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax", "stroke_start", "stroke_end")
 _CONSTRAINT: Final = "constraint"
 
 
@@ -114,20 +109,6 @@ def _locomotion(tree: Tree, source: BlockSource) -> list[Fault]:
     return left_out(tree, source)
 
 
-def _saccade(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites a mode of the eyes as a rate of glances; that they end is a rate of 0."""
-    off = take(tree, "finish").lower() == "true"
-    mode = take(tree, "mode").lower()
-    if not off and mode not in _GLANCES:
-        raise source.bad_attribute(tree, "mode", mode, RealizerError(UnknownWord(word=mode, known=tuple(_GLANCES))))
-    faults = left_out(tree, source, "angle-limit", "magnitude", "direction", "duration")
-    drop(tree, *_OTHER_POINTS)
-    tree.tag = f"{{{OWN}}}idleChange"
-    tree.set("parameter", IdleParameter.GLANCE_RATE)
-    tree.set("value", "0" if off else f"{_GLANCES[mode]:g}")
-    return faults
-
-
 def _as_it_is(tree: Tree, source: BlockSource) -> list[Fault]:
     return []
 
@@ -143,7 +124,7 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], list[Fault]]]] = {
     "reach": adapt_reach,
     "grab": adapt_grab,
     "noise": adapt_noise,
-    "saccade": _saccade,
+    "saccade": adapt_saccade,
     _CONSTRAINT: adapt_constraint,
     **dict.fromkeys(("animation", "states", "blend"), adapt_clip),
     "speech": _as_it_is,

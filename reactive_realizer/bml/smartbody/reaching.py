@@ -5,6 +5,7 @@ from typing import Final
 from reactive_realizer.bml.behaviors import REACH
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.smartbody.attributes import (
+    OTHER_POINTS,
     drop,
     left_out,
     rename,
@@ -25,7 +26,6 @@ _HOLD: Final = "postStrokeHoldDuration"
 _LONGEST: Final = 600.0
 _MOMENT: Final = "0.1"
 """Duration of a behavior that does nothing, s."""
-_OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax", "stroke_start", "stroke_end")
 
 
 def adapt_reach(tree: Tree, source: BlockSource) -> list[Fault]:
@@ -92,7 +92,7 @@ def _go(tree: Tree, action: str, source: BlockSource) -> list[Fault]:
 
 def _nothing(tree: Tree, source: BlockSource) -> list[Fault]:
     faults = left_out(tree, source)
-    drop(tree, "target", *_OTHER_POINTS)
+    drop(tree, "target", *OTHER_POINTS)
     tree.tag = "wait"
     tree.set("duration", _MOMENT)
     return faults

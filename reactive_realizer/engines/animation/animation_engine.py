@@ -3,6 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Awaitable, Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from functools import reduce
 from operator import itemgetter
 from random import Random
 from types import MappingProxyType
@@ -22,6 +23,7 @@ from reactive_realizer.bml.behaviors import (
     PostureShift,
 )
 from reactive_realizer.bml.extensions import MOTIONS
+from reactive_realizer.bml.glance import Glance
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlGesture
@@ -34,7 +36,7 @@ from reactive_realizer.embodiment.inertialization import CARRIED
 from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
-from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import MovePoints, ReportFall, Warn
@@ -104,6 +106,7 @@ class AnimationEngine(DefaultEngine):
         KeyPoses,
         MurmlGesture,
         IdleChange,
+        Glance,
         Gesture,
         Head,
         HeadDirectionShift,
@@ -430,14 +433,16 @@ class AnimationEngine(DefaultEngine):
 
     def eyes(self, tick: Tick) -> Eyes:
         """Pose the eyes for all gazes, from the head as shown; the lids follow."""
-        gazes = list(self._gazes())
-        return lambda body: self._look(tick.time, gazes, body)
+        gazes, aside = list(self._gazes()), self._aside()
+        return lambda body: self._look(tick.time, gazes, aside, body)
 
-    def _look(self, now: GlobalTime, gazes: Sequence[GazeGoal], body: Body) -> EyePose:
+    def _look(self, now: GlobalTime, gazes: Sequence[GazeGoal], aside: Quat, body: Body) -> EyePose:
         resting: Mapping[str, Quat] = self._idle_part(lambda idle: idle.eyes(now), {})
         camera = self._world.position(VIEWER) if self._idle else None
         viewer = None if camera is None else self._humanoid.to_own_frame(camera)
-        turns = self._isolated("gaze", lambda: self._eye_controller.eyes(now, gazes, body, resting, viewer), resting)
+        turns = self._isolated(
+            "gaze", lambda: self._eye_controller.eyes(now, gazes, body, resting, viewer, aside), resting
+        )
         blinks: Mapping[str, float] = self._idle_part(lambda idle: idle.blinks(now), {})
         return EyePose(turns, lid_weights(turns), blinks)
 
@@ -466,6 +471,11 @@ class AnimationEngine(DefaultEngine):
         yield from (gaze for gaze in lasting if gaze is not None)
         yield from (gaze for _, gaze in sorted(playing, key=itemgetter(0)))
 
+    def _aside(self) -> Quat:
+        """Return the turn of the eyes from where they look, in the axes of the head: that of all glances."""
+        glances = (unit.motion.glance(unit.phase) for unit in self._playing())
+        return reduce(multiply, (glance for glance in glances if glance is not None), IDENTITY)
+
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
         self._note_gaze_change(unit, time)
         self._late_hands.note(unit, sync, time)
@@ -475,7 +485,7 @@ class AnimationEngine(DefaultEngine):
 
     def _note_gaze_change(self, unit: AnimationUnit, time: GlobalTime) -> None:
         gaze = unit.motion.gaze(0.0)
-        if gaze is not None and gaze.eyes > 0.0:
+        if (gaze is not None and gaze.eyes > 0.0) or unit.motion.glance(0.0) is not None:
             self._eye_controller.note_change(time)
 
     def _claimed(self, unit: AnimationUnit) -> frozenset[str]:

@@ -33,6 +33,7 @@ from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
 from reactive_realizer.engines.animation.motions.controller import ControllerMaker
 from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
 from reactive_realizer.engines.animation.motions.gesture import GestureMaker
+from reactive_realizer.engines.animation.motions.glance import GlanceMaker
 from reactive_realizer.engines.animation.motions.key_poses import KeyPosesMaker
 from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
@@ -56,6 +57,7 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "gaze-shift": GazeMaker,
         "rest-gaze": partial(GazeMaker, follow=True),
         "head-direction": HeadDirectionMaker,
+        "glance": GlanceMaker,
         "pointing": PointingMaker,
         "Keyframe": KeyframeMaker,
         "noise": NoiseMaker,

@@ -206,6 +206,10 @@ class MotionUnit(ABC):
         """Return what directs the eyes at a phase; None if the motion does not."""
         return None
 
+    def glance(self, phase: float) -> Quat | None:
+        """Return by how much it turns the eyes from where they look, in the axes of the head; None if it does not."""
+        return None
+
     def step_turn(self, phase: float) -> float | None:
         """Return how far the feet are to turn the figure now, so that the joints reach a target, rad to the left.
 

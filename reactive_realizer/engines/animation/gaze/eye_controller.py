@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, between, multiply, rotate
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, between, conjugate, multiply, rotate
 from reactive_realizer.embodiment.vector import FORWARD, Vec3
 from reactive_realizer.engines.animation.gaze.eyes import EyeSockets, direction_between, listing, turned
 from reactive_realizer.engines.animation.gaze.viewer import toward_viewer
@@ -84,6 +84,7 @@ class EyeController:
         self._changed = GlobalTime(0.0)
         self._points: dict[GazeGoal, Vec3] = {}
         self._head = IDENTITY
+        self._aside = IDENTITY
         self._goal: EyeDirections = {}
         self._saccade: _Saccade | None = None
 
@@ -98,6 +99,7 @@ class EyeController:
         body: Body,
         resting: Mapping[str, Quat],
         viewer: Vec3 | None = None,
+        aside: Quat = IDENTITY,
     ) -> Mapping[str, Quat]:
         """Return the rotations of the eyes in a frame.
 
@@ -107,6 +109,7 @@ class EyeController:
             body: with the head as shown, and the eyes as other motions turn them.
             resting: additional rotations of the eyes when there is nothing to look at.
             viewer: whom they look at then, in the figure's frame, m; None if there is nobody.
+            aside: turn from where they look, in the axes of the head, while they glance aside.
         """
         sockets = EyeSockets.of(body)
         resting = {eye: multiply(body.rotation(eye), resting.get(eye, IDENTITY)) for eye in sockets.places}
@@ -115,21 +118,27 @@ class EyeController:
             views = {eye: toward_viewer(sockets.rotation, place, viewer) for eye, place in places.items()}
             resting = {eye: multiply(views[eye], turn) for eye, turn in resting.items()}
         points = {gaze: gaze.point(sockets.middle) for gaze in gazes if gaze.eyes > 0.0}
-        goal = {eye: _eye_direction(eye, sockets, points, resting) for eye in sockets.places}
+        goal = {
+            eye: _glanced(_eye_direction(eye, sockets, points, resting), sockets.rotation, aside)
+            for eye in sockets.places
+        }
         if not self._goal:  # before the first frame, the eyes rest
             self._head = sockets.rotation
             self._goal = {eye: _eye_direction(eye, sockets, {}, resting) for eye in sockets.places}
-        since = self._changed_since(points, sockets.middle, now) if self._goal else None
+        since = self._changed_since(points, aside, sockets.middle, now) if self._goal else None
         if since is not None:
             self._saccade = self._new_saccade(goal, since)
         self._time, self._points, self._head, self._goal = now, points, sockets.rotation, goal
+        self._aside = aside
         return {
             eye: listing(sockets.rotation, direction) for eye, direction in self._current_directions(goal, now).items()
         }
 
-    def _changed_since(self, points: Mapping[GazeGoal, Vec3], eyes: Vec3, now: GlobalTime) -> GlobalTime | None:
+    def _changed_since(
+        self, points: Mapping[GazeGoal, Vec3], aside: Quat, eyes: Vec3, now: GlobalTime
+    ) -> GlobalTime | None:
         """Return since when the target differs from that of the last frame; None if it does not."""
-        if list(points) != list(self._points):
+        if list(points) != list(self._points) or aside != self._aside:
             return self._changed if self._changed > self._time else now
         if points == self._points:
             return None
@@ -171,6 +180,11 @@ def _eye_direction(eye: str, sockets: EyeSockets, points: Mapping[GazeGoal, Vec3
         if toward is not None:
             direction = turned(direction, toward, gaze.eyes)
     return direction
+
+
+def _glanced(direction: Vec3, head: Quat, aside: Quat) -> Vec3:
+    """Return a direction, turned aside in the axes of the head."""
+    return direction if aside == IDENTITY else rotate(multiply(multiply(head, aside), conjugate(head)), direction)
 
 
 def _ahead(rotation: Quat) -> Vec3:

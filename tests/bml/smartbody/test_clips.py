@@ -1,0 +1,55 @@
+"""Gestures and clips of SmartBody."""
+
+import pytest
+
+from reactive_realizer.bml.behaviors import Gesture
+from reactive_realizer.bml.extensions import Keyframe
+from reactive_realizer.bml.vocabulary import Mode
+
+from .reading import only, told
+
+
+@pytest.mark.parametrize(
+    ("written", "lexeme"),
+    [
+        ('lexeme="METAPHORIC" type="OBLIGATION"', "CHOP"),
+        ('lexeme="DEICTIC" type="me"', "SELF"),
+        ('lexeme="BEAT" type="RHYTHM"', "BEAT"),
+        ('lexeme="EMBLEM" type="SALUTE"', "SALUTE"),
+    ],
+)
+def test_a_class_of_gestures_with_a_type_is_a_lexeme(written: str, lexeme: str) -> None:
+    gesture = only(f'<gesture {written} mode="LEFT_HAND"/>')
+    assert isinstance(gesture, Gesture)
+    assert (gesture.lexeme, gesture.mode) == (lexeme, Mode.LEFT_HAND)
+
+
+def test_a_hold_of_a_gesture_ties_its_points() -> None:
+    gesture = only('<gesture id="g" lexeme="BEAT" poststroke_hold="1.5"/>')
+    assert str(gesture.syncs["relax"]) == "g:strokeEnd+1.5"
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        '<gesture name="Brad@Chop" lexeme="BEAT"/>',
+        '<animation name="Brad@Chop" priority="5" speed="1"/>',
+        '<sbm:animation name="Brad@Chop"/>',
+        '<blend name="Brad@Chop"/>',
+        '<sbm:states name="Brad@Chop"/>',
+    ],
+)
+def test_what_names_a_clip_plays_it(written: str) -> None:
+    clip = only(written)
+    assert isinstance(clip, Keyframe)
+    assert clip.animation == "Brad@Chop"
+
+
+def test_the_mixture_of_a_blend_is_told() -> None:
+    (sentence,) = told('<blend name="step" x="1" y="0" sbm:wrap-mode="Once"/>')
+    assert sentence == "x, y, sbm:wrap-mode of SmartBody has no effect on <blend> here"
+
+
+def test_a_gesture_with_its_stroke_at_0_starts_as_early_as_possible() -> None:
+    assert list(only('<gesture lexeme="BEAT" stroke="0" relax="2"/>').syncs) == ["relax"]
+    assert list(only('<gesture lexeme="BEAT" stroke="0" start="0"/>').syncs) == ["stroke", "start"]

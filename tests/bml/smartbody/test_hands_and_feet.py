@@ -1,0 +1,89 @@
+"""Hands of SmartBody that go to a target, and ways."""
+
+import pytest
+
+from reactive_realizer.bml.behaviors import REACH, Locomotion, Pointing, Wait
+from reactive_realizer.bml.vocabulary import Mode
+
+from .reading import behaviors, only
+
+
+def test_a_way_has_a_speed_a_distance_and_a_direction_to_face() -> None:
+    way = only('<locomotion target="1 2" type="basic" manner="jog" speed="2" proximity="0.4" facing="90"/>')
+    assert isinstance(way, Locomotion)
+    assert (way.target, way.manner) == ("1 2", "RUN")
+    assert dict(way.parameters) == {"speed": "2", "distance": "0.4", "facing": "90"}
+
+
+@pytest.mark.parametrize(
+    ("action", "reach"),
+    [("", "TOUCH"), ("touch", "TOUCH"), ("pick-up", "TAKE"), ("Put-Down", "PUT"), ("point-at", None)],
+)
+def test_a_reach_is_a_pointing_whose_hand_touches_takes_or_puts(action: str, reach: str | None) -> None:
+    pointing = only(f'<sbm:reach target="box" sbm:action="{action}" sbm:handle="h" sbm:foot-ik="true"/>')
+    assert isinstance(pointing, Pointing)
+    assert (pointing.target, pointing.extensions.get(REACH)) == ("box", reach)
+
+
+def test_a_reach_has_a_hand_a_place_and_a_duration() -> None:
+    pointing = only('<sbm:reach sbm:target-pos="1 1.2 0" sbm:reach-type="left" sbm:reach-duration="2"/>')
+    assert isinstance(pointing, Pointing)
+    assert (pointing.target, pointing.mode) == ("1 1.2 0", Mode.LEFT_HAND)
+    assert dict(pointing.parameters) == {"postStrokeHoldDuration": "2"}
+
+
+@pytest.mark.parametrize(
+    "finishes",
+    [
+        '<sbm:reach sbm:action="touch" target="box" sbm:reach-finish="true" stroke="1"/>',
+        '<sbm:reach sbm:action="put-down"/>',
+        '<sbm:grab sbm:handle="h" sbm:grab-state="return"/>',
+    ],
+)
+def test_what_only_ends_a_reach_does_nothing_but_has_times(finishes: str) -> None:
+    assert isinstance(only(finishes), Wait)
+
+
+def test_a_grab_takes_its_target() -> None:
+    assert only('<sbm:grab target="box"/>').extensions[REACH] == "TAKE"
+
+
+def test_a_constraint_of_a_wrist_touches_its_target_with_that_hand() -> None:
+    touch = only('<sbm:constraint id="c" effector="l_wrist" target="box" sbm:fade-in="0.5" sbm:fade-out="1" end="4"/>')
+    assert isinstance(touch, Pointing)
+    assert (touch.mode, touch.extensions[REACH]) == (Mode.LEFT_HAND, "TOUCH")
+    assert {point: str(ref) for point, ref in touch.syncs.items()} == {
+        "end": "4",
+        "ready": "c:start+0.5",
+        "relax": "c:end-1",
+        "start": "0",
+    }
+
+
+def test_a_constraint_of_a_foot_stays_for_engines_of_plug_ins() -> None:
+    assert only('<sbm:constraint effector="l_forefoot" target="box"/>').namespace == "urn:smartbody"
+
+
+def test_a_reach_may_walk_to_its_target_first() -> None:
+    reach, walk = sorted(
+        behaviors('<sbm:reach target="box" sbm:use-locomotion="true" start="2"/>'),
+        key=lambda each: -len(each.sync_points),
+    )
+    assert isinstance(walk, Locomotion)
+    assert (walk.target, str(walk.syncs["start"]), dict(walk.parameters)) == ("box", "2", {"distance": "0.4"})
+    assert isinstance(reach, Pointing)
+    assert str(reach.syncs["start"]) == f"{walk.id}:end"
+
+
+def test_a_way_along_several_points_is_several_ways() -> None:
+    ways = behaviors('<locomotion id="l" target="0 1 1 1 1 -.5" speed="2" facing="0" start="3"/><wait start="l:end"/>')
+    read = {way.id: way for way in ways if isinstance(way, Locomotion)}
+    assert {way.target: str(way.syncs["start"]) for way in read.values()} == {
+        "0 1": "3",
+        "1 1": "locomotion1:end",
+        "1 -.5": "locomotion2:end",
+    }
+    assert read["l"].target == "1 -.5"
+    assert dict(read["l"].parameters) == {"speed": "2", "facing": "0"}
+    assert dict(read["locomotion1"].parameters) == {"speed": "2"}
+    assert len(behaviors('<locomotion target="1 0 1"/>')) == len(behaviors('<locomotion target="a b c d"/>')) == 1
