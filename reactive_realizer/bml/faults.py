@@ -190,6 +190,14 @@ class PoseTooEarly(ParsingFault):
     earliest: float
 
 
+class HeldCurve(ParsingFault):
+    """A key pose with a hold and parameters of a curve that passes it."""
+
+    code = "held-curve"
+    template = "a motion stops at a key pose with a hold, so this one has no use for {attributes}"
+    attributes: tuple[str, ...]
+
+
 class NotAVector(Fault):
     """A value that is not a vector."""
 

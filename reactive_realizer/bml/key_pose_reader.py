@@ -5,7 +5,7 @@ from typing import Any
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import DuplicateId, MissingElement, PoseTooEarly
+from reactive_realizer.bml.faults import DuplicateId, HeldCurve, MissingElement, PoseTooEarly
 from reactive_realizer.bml.key_poses import GOALS, KeyPose, KeyPoseGoal, KeyPoses
 from reactive_realizer.bml.trees import Tree, children_of, name_of
 from reactive_realizer.errors import Fault, RealizerError
@@ -50,7 +50,10 @@ def _key_pose(tree: Tree, poses: Sequence[KeyPose], source: BlockSource, notes: 
     if not goals:
         wanted = " or ".join(f"<{name}>" for name in _GOALS)
         raise RealizerError(source.located(tree, MissingElement(element=name_of(tree), children=wanted)))
-    return KeyPose(**values, goals=tuple(goals), location=source.location(tree))
+    pose = KeyPose(**values, goals=tuple(goals), location=source.location(tree))
+    if pose.hold > 0.0 and pose.curve:
+        notes.append(source.located(tree, HeldCurve(attributes=tuple(pose.curve))))
+    return pose
 
 
 def _goal(tree: Tree, source: BlockSource, notes: list[Fault]) -> KeyPoseGoal:

@@ -122,6 +122,9 @@ class KeyPose:
         warp: time warp of the way to it; None for that of the sequence.
         steepness: of its warp.
         power: of the way to it (`Expressivity`).
+        tension: of the curve on which the motion passes it; None as continuity and bias.
+        continuity: of that curve.
+        bias: of that curve. Without any of the three, and with a hold, the motion stops at the pose.
         goals: one or more.
         location: of its element.
     """
@@ -134,8 +137,17 @@ class KeyPose:
     warp: WarpKind | None = field(default=None, metadata=attribute(Enumeration(WarpKind)))
     steepness: float = field(default=1.0, metadata=attribute(Float(*STEEPNESS)))
     power: float = field(default=0.0, metadata=attribute(Float(-MOST, MOST)))
+    tension: float | None = field(default=None, metadata=attribute(Float(-1, 1)))
+    continuity: float | None = field(default=None, metadata=attribute(Float(-1, 1)))
+    bias: float | None = field(default=None, metadata=attribute(Float(-1, 1)))
     goals: tuple[KeyPoseGoal, ...]
     location: Location = field(compare=False)
+
+    @property
+    def curve(self) -> dict[str, float]:
+        """The given ones of tension, continuity and bias."""
+        given = {"tension": self.tension, "continuity": self.continuity, "bias": self.bias}
+        return {name: value for name, value in given.items() if value is not None}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -194,6 +194,54 @@ async def test_a_time_warp_changes_the_course_of_a_hand_and_not_its_times() -> N
     assert late < 0.35
 
 
+def around(center: Vec3, radius: float, curve: str) -> list[str]:
+    """Eight key poses on a circle, a quarter of a second apart, and the first one again."""
+    x, y, z = center
+    turns = [math.pi * number / 4 for number in range(9)]
+    places = [(x + radius * math.cos(turn), y + radius * math.sin(turn), z) for turn in turns]
+    return [
+        pose(0.6 + 0.25 * number, place(each)).replace("time", f"{curve} time") for number, each in enumerate(places)
+    ]
+
+
+async def test_a_hand_passes_key_poses_on_a_curve_without_stopping_and_a_tension_of_1_stops_it() -> None:
+    slowest, bumpiest = [], []
+    for curve in ('tension="0"', 'tension="1"'):
+        async with open_pilot() as pilot:
+            pilot.watch()
+            pilot.perform(document(poses("k", "RIGHT_ARM", *around((-0.15, 0.25, 0.3), 0.12, curve))))
+            await pilot.advance(2.7)
+            assert pilot.feedback.warnings == []
+            way = np.array([from_pelvis(body, "r_wrist") for body in pilot.bodies()])
+        for number, turn in enumerate(np.arange(8) * math.pi / 4):
+            there = (-0.15 + 0.12 * math.cos(turn), 0.25 + 0.12 * math.sin(turn), 0.3)
+            frames = way[round((0.6 + 0.25 * number) * FRAMES) - 1 :][:3]
+            assert min(np.linalg.norm(frames - there, axis=1)) < 0.006
+        inner = way[round(0.85 * FRAMES) : round(2.35 * FRAMES)]
+        slowest.append(FRAMES * np.linalg.norm(np.diff(inner, axis=0), axis=1).min())
+        off = np.hypot(inner[:, 0] + 0.15, inner[:, 1] - 0.25) - 0.12
+        bumpiest.append(np.abs(off).max())
+    assert slowest[0] > 0.3
+    assert slowest[1] < 0.1
+    assert bumpiest[0] < 0.5 * bumpiest[1]
+
+
+async def test_with_bias_a_hand_passes_its_place_before_it_turns_back() -> None:
+    furthest = {}
+    for curve in ('bias="1"', 'bias="0"'):
+        there = pose(1.2, place(THERE)).replace("time", f"{curve} time")
+        async with open_pilot() as pilot:
+            pilot.watch()
+            pilot.perform(document(poses("k", "RIGHT_ARM", pose(0.6, place(HERE)), there, pose(1.8, place(HERE)))))
+            await pilot.advance(2)
+            way = np.array([from_pelvis(at(pilot, time), "r_wrist") for time in np.arange(0.6, 1.81, 1 / FRAMES)])
+        chord = np.subtract(THERE, HERE)
+        furthest[curve] = ((way - HERE) @ chord / (chord @ chord)).max()
+        assert distance(tuple(way[round(0.6 * FRAMES)]), THERE) < 0.005
+    assert furthest['bias="0"'] == pytest.approx(1.0, abs=0.01)
+    assert furthest['bias="1"'] > 1.03
+
+
 async def test_power_straightens_the_way_of_a_hand_and_has_it_pass_its_place_before_it_is_there() -> None:
     curves, furthest = [], []
     for power in (-1, 0, 1):

@@ -108,6 +108,53 @@ def test_fluidity_takes_from_holds_or_has_the_hand_rest_at_each_pose() -> None:
     assert halting.poses[2].hold == pytest.approx(0.3)
 
 
+def curves(*poses: str, more: str = "") -> list[dict[str, float]]:
+    (arm,) = arms(more + sequence(*poses))
+    return [each.curve for each in arm.poses]
+
+
+STILL: dict[str, float] = {}
+NEUTRAL = {"tension": 0.0, "bias": 0.0}
+
+
+def test_the_hand_passes_poses_on_a_curve_and_stops_for_holds_and_at_the_end() -> None:
+    one, other = PLACES
+    away = "-0.2;-0.4;0.1"
+    three = pose(500, one, 0, None), pose(1000, other, 0, None), pose(1500, away, 0, None)
+    assert curves(*three) == [NEUTRAL, NEUTRAL, STILL]
+    assert curves(three[0], pose(1000, other, 100, None), three[2]) == [NEUTRAL, STILL, STILL]
+
+
+def test_the_hand_stops_where_a_pose_is_repeated_and_where_a_time_warp_begins_or_ends() -> None:
+    one, other = PLACES
+    assert curves(pose(500, other, 0, None), *(pose(time, one, 0, None) for time in (1000, 1500))) == [
+        NEUTRAL,
+        STILL,
+        STILL,
+    ]
+    four = [pose(500 * number, PLACES[number % 2], 0, None) for number in range(1, 5)]
+    four[2] = four[2].replace("TARGET", "TIME_WARP:EXP;2\nTARGET")
+    assert curves(*four) == [NEUTRAL, STILL, STILL, STILL]
+    assert curves(*four[:2]).count(NEUTRAL) == 1
+    warped = f"BEGIN K_POSE_SEQUENCE\nTIME_WARP:TAN;0.2\n{four[0]}{four[1]}END\n"
+    assert all(each.curve == STILL for each in arms(warped)[0].poses)
+
+
+def test_fingers_stop_at_each_shape() -> None:
+    shapes = [
+        f"BEGIN K_POSE\nTIME_POINT:+{time}\nBEGIN POSE_TARGET\nBODY_GROUP:rhand\nPOSE_KEY:{key}\nEND\nEND\n"
+        for time, key in ((500, "hands_fist"), (1000, "hands_index"))
+    ]
+    assert curves(*shapes) == [STILL, STILL]
+
+
+def test_power_is_the_tension_and_the_bias_of_the_curve_and_fluidity_below_0_stops_the_hand_at_each_pose() -> None:
+    poses = pose(500, PLACES[0]), pose(1000, PLACES[1]), pose(1500, PLACES[0])
+    assert curves(*poses, more=nucleus(POWER=-0.4))[:2] == [{"tension": -0.4, "bias": -0.4}] * 2
+    assert curves(*poses, more=nucleus(FLUIDITY=1)) == [NEUTRAL, NEUTRAL, STILL]
+    assert curves(*poses, more=nucleus(FLUIDITY=-0.2)) == [STILL, STILL, STILL]
+
+
 @pytest.mark.parametrize(
     ("values", "power"),
     [({"POWER": 3}, 1.0), ({"POWER": "-1e9"}, -1.0), ({"POWER": "strong"}, 0.0), ({"POWER": "nan"}, 0.0)],

@@ -72,6 +72,22 @@ def test_a_pose_that_cannot_be_read_is_left_out(read: Callable[[str], Parsed], p
     assert all(each.id == "b:k" for each in parsed.problems)
 
 
+def test_a_pose_that_is_held_has_no_use_for_the_parameters_of_a_curve(read: Callable[[str], Parsed]) -> None:
+    goal = '<lookAt target="0 0 1"/>'
+    parsed = read(
+        f'<keyPoses {NAMESPACE} id="k" group="HEAD">'
+        f'<keyPose time="0.3" tension="0.5" bias="-1">{goal}</keyPose>'
+        f'<keyPose time="1" hold="0.2" tension="0" bias="0">{goal}</keyPose></keyPoses>'
+    )
+    assert parsed.block is not None
+    (behavior,) = parsed.block.behaviors
+    assert isinstance(behavior, KeyPoses)
+    assert behavior.poses[0].curve == {"tension": 0.5, "bias": -1.0}
+    (problem,) = parsed.problems
+    assert problem.fault.code == "held-curve"
+    assert "no use for tension, bias" in problem.fault.sentence
+
+
 def test_key_poses_without_any_pose_are_refused(read: Callable[[str], Parsed]) -> None:
     parsed = read(f'<keyPoses {NAMESPACE} id="k" group="HEAD"/>')
     assert parsed.block is not None

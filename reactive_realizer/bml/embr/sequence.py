@@ -1,8 +1,9 @@
 """Reads a sequence of key poses: a behavior for each body group, each morph target and shader, and each clip."""
 
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from lxml import etree
 
@@ -27,6 +28,8 @@ from reactive_realizer.limits import Limits
 
 _SAMPLES = 10
 """Number of parts of a warped way of a weight, each of which is even."""
+
+_FINGERS: Final = (BodyGroup.LEFT_HAND, BodyGroup.RIGHT_HAND)
 
 Warped = tuple[WarpKind | None, float]
 """A time warp and its steepness."""
@@ -179,6 +182,7 @@ class SequenceReader:
 
     def _key_poses(self, group: BodyGroup, steps: list[_Step]) -> Behavior:
         ends = [*(step.at.begins for step in steps[1:]), steps[-1].at.left]
+        curves = self._curves(group, steps)
         poses = tuple(
             KeyPose(
                 time=step.at.reached,
@@ -187,10 +191,11 @@ class SequenceReader:
                 warp=step.warp[0],
                 steepness=step.warp[1],
                 power=step.at.power,
+                **curve,
                 goals=step.goals,
                 location=step.place,
             )
-            for step, end in zip(steps, ends, strict=True)
+            for step, end, curve in zip(steps, ends, curves, strict=True)
         )
         kind, steepness = self._warp
         return KeyPoses(
@@ -203,6 +208,23 @@ class SequenceReader:
             steepness=steepness,
             poses=poses,
         )
+
+    def _curves(self, group: BodyGroup, steps: list[_Step]) -> list[dict[str, float]]:
+        """The parameters of the curve at each pose that the motion passes; none where it stops.
+
+        It stops for a hold, which may be written as the same pose again, and where a time warp says how it begins and
+        ends. Fingers stop at each of their poses: beyond it, they would go through the palm.
+        """
+        if group in _FINGERS:
+            return [{} for _ in steps]
+        stops = {len(steps)}
+        for number, (here, after) in enumerate(pairwise(steps), 1):
+            warped = (here.warp[0] or after.warp[0] or self._warp[0]) is not None
+            if warped or after.at.begins > here.at.reached or here.goals == after.goals:
+                stops |= {number}
+            if here.goals == after.goals:
+                stops |= {number + 1}
+        return [{} if number in stops else _curve(step.at.power) for number, step in enumerate(steps, 1)]
 
     # --- face
 
@@ -275,6 +297,14 @@ class SequenceReader:
     def _syncs(self, start: float, end: float | None = None) -> Mapping[str, SyncRef]:
         points = {"start": start} | ({} if end is None else {"end": end})
         return MappingProxyType({sync: SyncRef(None, None, None, round(time, 6)) for sync, time in points.items()})
+
+
+def _curve(power: float) -> dict[str, float]:
+    """The parameters of the curve at a pose: power is tension and bias, as in EMBR.
+
+    Its continuity is 0 there unless fluidity is below 0, which has the hand stop at each pose instead.
+    """
+    return {"tension": power, "bias": power}
 
 
 def _id_of(key: str) -> str:

@@ -8,6 +8,7 @@ from random import Random
 from types import MappingProxyType
 
 from reactive_realizer.engine.faults import TwoPlugins
+from reactive_realizer.engines.animation.tcb import Side, Tcb
 from reactive_realizer.errors import RealizerError
 
 
@@ -58,18 +59,16 @@ def tcbspline(t: float, start_speed: float, end_speed: float, *keys: float) -> f
     enter, leave = start_speed, end_speed
     # Slopes are per interval; the corrections make them equal per unit of t on both sides of a key.
     if left > 0:
-        enter = _tangent(values, keys, left, -1.0) * 2.0 * interval / (times[right] - times[left - 1])
+        enter = _tangent(values, keys, left, "leaving") * 2.0 * interval / (times[right] - times[left - 1])
     if right + 1 < len(values):
-        leave = _tangent(values, keys, right, 1.0) * 2.0 * interval / (times[right + 1] - times[left])
+        leave = _tangent(values, keys, right, "arriving") * 2.0 * interval / (times[right + 1] - times[left])
     return _cubic((t - times[left]) / interval, values[left], values[right], enter, leave)
 
 
-def _tangent(values: Sequence[float], keys: Sequence[float], i: int, arriving: float) -> float:
-    """Return the slope at an inner key, per interval; `arriving` is 1 before the key and -1 after it."""
-    tension, continuity, bias = keys[5 * i - 1 : 5 * i + 2]
-    before = (1.0 - tension) * (1.0 - arriving * continuity) * (1.0 + bias)
-    after = (1.0 - tension) * (1.0 + arriving * continuity) * (1.0 - bias)
-    return 0.5 * (before * (values[i] - values[i - 1]) + after * (values[i + 1] - values[i]))
+def _tangent(values: Sequence[float], keys: Sequence[float], i: int, side: Side) -> float:
+    """Return the slope at an inner key, per interval, on one side of it."""
+    before, after = Tcb(*keys[5 * i - 1 : 5 * i + 2]).shares(side)
+    return before * (values[i] - values[i - 1]) + after * (values[i + 1] - values[i])
 
 
 def _cubic(u: float, a: float, b: float, enter: float, leave: float) -> float:

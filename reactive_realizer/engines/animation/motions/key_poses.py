@@ -2,7 +2,8 @@
 
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
+from itertools import zip_longest
 from typing import NamedTuple
 
 from reactive_realizer.bml.expressivity import Expressivity
@@ -14,6 +15,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import HEAD, SIDES, TRUNK
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGoals, NotReachable, WrongElement
@@ -29,6 +31,7 @@ from reactive_realizer.engines.animation.motion_unit import (
 from reactive_realizer.engines.animation.motions.pose_goals import PoseGoals
 from reactive_realizer.engines.animation.procedural.effector_track import carried_as_shown
 from reactive_realizer.engines.animation.shortest import Profile
+from reactive_realizer.engines.animation.tcb import Neighbors, Side, Tcb, rotation_on_way
 from reactive_realizer.errors import Fault, RealizerError
 
 _LOWER = frozenset({*HEAD, *TRUNK})
@@ -38,6 +41,10 @@ _STRETCHED = 0.5
 
 _SHORTEST = 0.001
 """Duration of a motion whose only pose is reached at once, s."""
+
+
+Poses = Callable[[int], Mapping[str, Quat]]
+"""Returns the rotations at a key pose by its number; where the motion started for -1."""
 
 
 class Key(NamedTuple):
@@ -52,6 +59,7 @@ class Key(NamedTuple):
         location: of its element in the document.
         power: of the way (`Expressivity`).
         way: the state after a share of the way to it; None for the shortest arc of each joint.
+        tcb: of the curve on which the motion passes it; None if it stops there.
     """
 
     begins: float
@@ -62,6 +70,7 @@ class Key(NamedTuple):
     location: Location
     power: float = 0.0
     way: Callable[[float], JointPose] | None = None
+    tcb: Tcb | None = None
 
 
 class KeyPosesMotionUnit(MotionUnit):
@@ -123,22 +132,48 @@ class KeyPosesMotionUnit(MotionUnit):
             return MotionPose(self._rotations(key, key.way(done), body, moment), self._weight(time))
         there: Mapping[str, Quat] = self._rotations(key, key.pose, body, moment)
         if passed < 1.0:
-            before = self._keys[number - 1]
-            here = self._first if number == 0 else self._rotations(before, before.pose, body, moment)
-            there = self._on_way(key, here, there, done, moment.body, passed)
+            at = cache(lambda number: self._at(number, body, moment))
+            there = self._on_way(number, done, passed, at, moment.body)
         return MotionPose(there, self._weight(time))
 
-    def _on_way(
-        self, key: Key, here: Mapping[str, Quat], there: Mapping[str, Quat], done: float, body: Body, time: float
-    ) -> Mapping[str, Quat]:
+    def _at(self, number: int, body: Body, moment: Moment) -> Mapping[str, Quat]:
+        """Return the rotations at a key pose; where the motion started for -1."""
+        if number < 0:
+            return self._first
+        key = self._keys[number]
+        return self._rotations(key, key.pose, body, moment)
+
+    def _on_way(self, number: int, done: float, time: float, at: Poses, body: Body) -> Mapping[str, Quat]:
         """Return the rotations on the way to a key pose, after a share of its time; power changes that of a hand."""
-        turned = {joint: slerp(here[joint], goal, done) for joint, goal in there.items()}
-        if key.power == 0.0:
+        key, here, there = self._keys[number], at(number - 1), at(number)
+        leaving, arriving = self._velocities(number - 1, at, "leaving"), self._velocities(number, at, "arriving")
+        if leaving or arriving:
+            turned = {
+                joint: rotation_on_way(here[joint], goal, done, leaving.get(joint, ZERO), arriving.get(joint, ZERO))
+                for joint, goal in there.items()
+            }
+        else:
+            turned = {joint: slerp(here[joint], goal, done) for joint, goal in there.items()}
+        if key.power == 0.0 or key.tcb is not None:
             return turned
         sides = (side for side in SIDES if turned.keys() >= {f"{side}_shoulder", f"{side}_elbow"})
         expressivity = Expressivity(power=key.power)
-        way = Way(here, there, done, expressivity.curvature, expressivity.arriving(time))
+        # The tension of the pose before has made a way straighter that begins with its velocity.
+        curvature = 1.0 if leaving else expressivity.curvature
+        way = Way(here, there, done, curvature, expressivity.arriving(time))
         return on_way([CarriedArm.of(body.skeleton, side) for side in sides], turned, way, body)
+
+    def _velocities(self, number: int, at: Poses, side: Side) -> Mapping[str, Vec3]:
+        """Return the velocities of the joints on one side of a key pose (`Neighbors`); none where the motion stops."""
+        tcb = self._keys[number].tcb if number >= 0 else None
+        if tcb is None:
+            return {}
+        before, here, after = (at(each) for each in (number - 1, number, number + 1))
+        first, second = (key.reached - key.begins for key in self._keys[number : number + 2])
+        return {
+            joint: Neighbors(before[joint], turn, after[joint], (first, second)).tangent(tcb, side)
+            for joint, turn in here.items()
+        }
 
     def _rotations(self, key: Key, pose: JointPose, body: Body, moment: Moment) -> dict[str, Quat]:
         """Return the rotations of all joints in a pose on the way to a key pose."""
@@ -165,12 +200,54 @@ def _kind(joints: frozenset[str], *, whole_body: bool) -> LayerKind:
     return LayerKind.GAZE if joints <= _LOWER else LayerKind.GESTURE
 
 
-def _speed(pose: KeyPose, behavior: KeyPoses) -> Profile:
-    """Return the completed share of the way to a pose after a share of its time."""
+def _speed(pose: KeyPose, behavior: KeyPoses, *, curved: bool) -> Profile:
+    """Return the completed share of the way to a pose after a share of its time; a curve has a speed of its own."""
     warping = pose if pose.warp is not None else behavior
     if warping.warp is None:
-        return minimum_jerk
+        return _steady if curved else minimum_jerk
     return partial(warped, kind=warping.warp, steepness=warping.steepness)
+
+
+def _steady(time: float) -> float:
+    return time
+
+
+class _Met(NamedTuple):
+    """A key pose that the figure can have.
+
+    Attributes:
+        begins: when the way to it begins, s after the start of the motion.
+        pose: as written.
+        goals: the state.
+    """
+
+    begins: float
+    pose: KeyPose
+    goals: JointPose
+
+    def tcb(self, after: "_Met | None") -> Tcb | None:
+        """Return how a curve passes it, before the pose after it; None if the motion stops there."""
+        pose = self.pose
+        passed = after is not None and self.begins < pose.time == after.begins
+        return Tcb(**pose.curve) if pose.curve and passed else None
+
+
+def _keys(met: Sequence[_Met], behavior: KeyPoses) -> list[Key]:
+    """Return key poses in time."""
+    tcbs = [each.tcb(after) for each, after in zip_longest(met, met[1:])]
+    return [
+        Key(
+            begins=each.begins,
+            reached=each.pose.time,
+            left=each.pose.time + each.pose.hold,
+            profile=_speed(each.pose, behavior, curved=tcb is not None or before is not None),
+            pose=each.goals,
+            location=each.pose.location,
+            power=each.pose.power,
+            tcb=tcb,
+        )
+        for each, before, tcb in zip(met, (None, *tcbs), tcbs, strict=False)
+    ]
 
 
 class KeyPosesMaker:
@@ -190,14 +267,14 @@ class KeyPosesMaker:
             raise RealizerError(WrongElement(unit="key-poses", element=behavior.name))
         rest = self._context.rest.body
         goals = PoseGoals(behavior.group, self._context, rest)
-        keys: list[Key] = []
+        met: list[_Met] = []
         left = 0.0
         for pose in behavior.poses:
             solved = goals.solved(pose.goals)
             if solved is not None:
-                speed = _speed(pose, behavior)
-                keys.append(Key(left, pose.time, pose.time + pose.hold, speed, solved, pose.location, pose.power))
+                met.append(_Met(left, pose, solved))
             left = pose.time + pose.hold
+        keys = _keys(met, behavior)
         if not keys:
             raise RealizerError(goals.notes[0] if len(goals.notes) == 1 else NoGoals(reasons=goals.reasons))
         points = {pose.id: pose.time for pose in behavior.poses if pose.id}
