@@ -24,7 +24,7 @@ _COMMANDS = MappingProxyType(
         "make-avatar": "make an avatar by age, build, skin, hair and clothes",
         "physics": "write the physical model of a character",
         "conformance": "test a realizer over the protocol",
-        "bridge": "connect a realizer with the message bus of another system",
+        "bridge": "connect a realizer with clients of another system",
     }
 )
 """The commands, each a module of `reactive_realizer.cli`, with a line of help."""

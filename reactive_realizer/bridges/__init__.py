@@ -1,1 +1,1 @@
-"""Programs between a realizer and message buses of other systems; each is a client of the realizer's protocol."""
+"""Programs between a realizer and clients of other systems; each is a client of the realizer's protocol."""

@@ -1,25 +1,13 @@
-"""The command ``bridge``: connects a realizer with the message bus of another system."""
+"""The command ``bridge``: connects a realizer with clients of another system."""
 
 import argparse
 import asyncio
 import os
 
+from reactive_realizer.bridges import embr, vhmsg
 from reactive_realizer.bridges.stomp_bus import Broker
-from reactive_realizer.bridges.vhmsg import SCOPE, run_bridge
 
 _LOGIN, _PASSCODE = "VHMSG_LOGIN", "VHMSG_PASSCODE"
-
-
-def broker(text: str) -> tuple[str, int]:
-    """Parse ``host:port``, or ``host``.
-
-    Raises:
-        ValueError: no host, or no port number.
-    """
-    host, colon, port = text.partition(":")
-    if not host or not 0 < (number := int(port) if colon else Broker().port) < 65536:
-        raise ValueError(text)
-    return host, number
 
 
 def agent(text: str) -> tuple[str, str]:
@@ -36,6 +24,13 @@ def agent(text: str) -> tuple[str, str]:
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Give a parser the options of ``bridge``."""
+    parser.description = "Connects a realizer with clients of another system."
+    buses = parser.add_subparsers(required=True, metavar="SYSTEM", parser_class=argparse.ArgumentParser)
+    _add_vhmsg(buses.add_parser("vhmsg", help="the Virtual Human Toolkit: VHMSG over ActiveMQ, by STOMP"))
+    _add_embr(buses.add_parser("embr", help="clients of EMBR: EMBRScript over TCP, feedback over UDP"))
+
+
+def _add_vhmsg(parser: argparse.ArgumentParser) -> None:
     parser.description = (
         "Plays requests of the Virtual Human Toolkit (vrSpeak) on a realizer, and reports their progress (vrAgentBML)."
     )
@@ -43,16 +38,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "example: reactive-realizer bridge vhmsg http://127.0.0.1:8088 --agent brad=alice; the user of the broker is "
         f"taken from the environment ({_LOGIN}, {_PASSCODE}), and is guest by default"
     )
-    parser.add_argument("bus", choices=("vhmsg",), metavar="BUS", help="vhmsg: VHMSG over ActiveMQ, by STOMP")
-    parser.add_argument("url", metavar="URL", help="the address of the realizer, http://127.0.0.1:8088")
+    _add_url(parser)
+    _add_address(parser, "--broker", (Broker().host, Broker().port), "the address of the broker")
     parser.add_argument(
-        "--broker",
-        type=broker,
-        default=(Broker().host, Broker().port),
-        metavar="HOST:PORT",
-        help="the address of the broker, localhost:61613",
+        "--scope", default=vhmsg.SCOPE, metavar="NAME", help=f"the scope of the messages, {vhmsg.SCOPE}"
     )
-    parser.add_argument("--scope", default=SCOPE, metavar="NAME", help=f"the scope of the messages, {SCOPE}")
     parser.add_argument(
         "--agent",
         type=agent,
@@ -61,12 +51,44 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="NAME=CHARACTER",
         help="the character that plays requests to an agent, if it has another name; can be repeated",
     )
-    parser.set_defaults(run=run)
+    parser.set_defaults(run=_run_vhmsg)
 
 
-def run(options: argparse.Namespace) -> int:
+def _add_embr(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Takes EMBRScript in the place of EMBR, plays it on a realizer, and reports its feedback."
+    parser.epilog = "example: reactive-realizer bridge embr http://127.0.0.1:8088"
+    _add_url(parser)
+    _add_address(parser, "--listen", embr.LISTEN, "where scripts are taken, over TCP")
+    _add_address(parser, "--feedback", embr.FEEDBACK, "where feedback is sent, over UDP")
+    parser.set_defaults(run=_run_embr)
+
+
+def _add_url(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("url", metavar="URL", help="the address of the realizer, http://127.0.0.1:8088")
+
+
+def _add_address(parser: argparse.ArgumentParser, name: str, default: tuple[str, int], text: str) -> None:
+    """Add an option ``HOST:PORT``, or ``HOST`` with the default port."""
+    host, port = default
+
+    def address(text: str) -> tuple[str, int]:
+        host, colon, number = text.partition(":")
+        if not host or not 0 < (chosen := int(number) if colon else port) < 65536:
+            raise ValueError(text)
+        return host, chosen
+
+    parser.add_argument(name, type=address, default=default, metavar="HOST:PORT", help=f"{text}, {host}:{port}")
+
+
+def _run_vhmsg(options: argparse.Namespace) -> int:
     """The exit status: 0 if the toolkit asks the bridge to end. If a connection is lost, an error is raised."""
     host, port = options.broker
     reached = Broker(host, port, os.environ.get(_LOGIN, "guest"), os.environ.get(_PASSCODE, "guest"))
-    asyncio.run(run_bridge(options.url, reached, options.scope, dict(options.agent)))
+    asyncio.run(vhmsg.run_bridge(options.url, reached, options.scope, dict(options.agent)))
+    return 0
+
+
+def _run_embr(options: argparse.Namespace) -> int:
+    """If the connection to the realizer is lost, an error is raised."""
+    asyncio.run(embr.run_bridge(options.url, options.listen, options.feedback))
     return 0

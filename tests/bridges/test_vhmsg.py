@@ -2,25 +2,20 @@
 
 import asyncio
 import threading
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import Iterator
 
 import pytest
-from aiohttp import web
 from coilmq.queue import QueueManager
 from coilmq.server.socket_server import ThreadedStompServer
 from coilmq.store.memory import MemoryQueue
 from coilmq.topic import TopicManager
 
 from reactive_realizer.__main__ import main
-from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.bridges.stomp_bus import Broker, StompBus, connected
 from reactive_realizer.bridges.vhmsg import SCOPE, run_bridge
 from reactive_realizer.bridges.vhmsg_messages import VhMessage
-from reactive_realizer.clock.clock import ManualClock
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.server.app import create_app
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.security import Security
 
 LIMIT = 30.0
 """The longest wait for a message, s."""
@@ -65,18 +60,6 @@ class Toolkit:
         while True:
             await self._live.step(await anext(self._ticks))
             await asyncio.sleep(0.001)  # the threads of the broker and of its clients need the interpreter too
-
-
-@pytest.fixture
-async def live() -> AsyncIterator[tuple[LiveScene, str]]:
-    async with open_scene(SceneOptions(voice="text")) as scene:
-        live = LiveScene(scene, ManualClock())
-        runner = web.AppRunner(create_app(live, Security()), shutdown_timeout=1)
-        await runner.setup()
-        await web.TCPSite(runner, "127.0.0.1", 0).start()
-        host, port = runner.addresses[0]
-        yield live, f"http://{host}:{port}"
-        await runner.cleanup()
 
 
 async def test_requests_on_the_bus_are_played_and_reported_there(broker: Broker, live: tuple[LiveScene, str]) -> None:
