@@ -95,6 +95,7 @@ _NOTES = {
     "emit event": "its content, of any kind, is for planners",
     "glance left": "degrees, as the character sees it",
     "glance up": "degrees",
+    "release mode": "the hands that let go of what they carry",
     "idleChange parameter": "breaths per minute, their depth relative to that at rest, blinks and glances per minute",
     "idleChange value": "reached at the end, evenly, and kept until another change",
     "keyPoses group": "the joints that move; only arms have `position` and `swivel`, and only heads `lookAt`",
@@ -190,7 +191,7 @@ otherwise the first one |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
-`keyPoses`, `glance` and `idleChange` are in the namespace `urn:reactive-realizer:1`
+`keyPoses`, `glance`, `release` and `idleChange` are in the namespace `urn:reactive-realizer:1`
 ([key poses in BML](embrscript.md#key-poses-in-bml)). `murmlgesture` and `murmlface` are in the namespace
 `http://www.techfak.uni-bielefeld.de/ags/soa/murml` ([MURML](murml.md)).
 

@@ -45,6 +45,7 @@ from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS, MURML
+from reactive_realizer.bml.release import Release
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +140,7 @@ _BEHAVIORS = (
     FaceKeyframe,
     KeyPoses,
     Glance,
+    Release,
     IdleChange,
     MurmlGesture,
     MurmlFace,

@@ -75,6 +75,12 @@ class World:
         for target in [target for target, carrier in self._carried.items() if carrier == joint]:
             self.move(target, place)
 
+    def let_go(self, joint: str) -> None:
+        """Leave what follows a joint where it is."""
+        place = self.position(joint)
+        if place is not None:
+            self.put_down(joint, place)
+
     def position(self, target: str, time: GlobalTime | None = None) -> Vec3 | None:
         """Return the position of a target, m; None if it is unknown.
 

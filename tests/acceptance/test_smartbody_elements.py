@@ -67,6 +67,25 @@ async def test_a_character_walks_to_a_thing_picks_it_up_and_puts_it_down(open_st
     assert pilot.realizer.world.position("cup") == (-0.2, 1.1, 1.5)
 
 
+@pytest.mark.parametrize(
+    "dropped", ['<sbm:grab sbm:release-pawn="true"/>', '<sbm:reach sbm:action="put-down" sbm:reach-finish="true"/>']
+)
+async def test_a_hand_lets_go_of_what_it_carries_wherever_it_is(open_still: OpenStill, dropped: str) -> None:
+    async with open_still() as pilot:
+        pilot.move("cup", (-0.2, 1.15, 0.4))
+        pilot.perform(act('<sbm:reach sbm:action="pick-up" target="cup"/>'))
+        await pilot.advance(5)
+        carried = pilot.realizer.world.position("cup")
+        pilot.perform(act(dropped))
+        await pilot.advance(0.5)
+        pilot.perform(act('<sbm:reach sbm:action="touch" target="-0.2 1.15 0.4"/>'))
+        await pilot.advance(1)
+        left = pilot.realizer.world.position("cup")
+    assert pilot.feedback.warnings == []
+    assert carried is not None
+    assert left == pytest.approx(carried, abs=0.01)
+
+
 @pytest.mark.parametrize("element", ["animation", "gesture", "blend", "sbm:states"])
 async def test_what_names_a_clip_plays_the_file_of_that_name(
     open_still: OpenStill, tmp_path: Path, element: str

@@ -49,6 +49,7 @@ from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, MURML, OWN, Location
+from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import (
     BodyGroup,
     Influence,
@@ -247,6 +248,7 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         ("start", "relax", "end"),
     ),
     '<rr:glance id="x" left="5" up="-2.5"/>': (Glance, {"left": 5.0, "up": -2.5}, SHIFT),
+    '<rr:release id="x" mode="BOTH_HANDS"/>': (Release, {"mode": Mode.BOTH_HANDS}, SHIFT),
     '<rr:idleChange id="x" parameter="BLINK_RATE" value="9"/>': (
         IdleChange,
         {"parameter": IdleParameter.BLINK_RATE, "value": 9.0},
@@ -307,6 +309,7 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
             prefix = PREFIXES[element.namespace]
             values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
             values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition", "left": "5", "up": "1"}
+            values["mode"] = "LEFT_HAND"
             values |= {"filename": "clap.wav", "group": "HEAD", "parameter": "BLINK_RATE"}
             values |= {
                 "targetname": "grin",

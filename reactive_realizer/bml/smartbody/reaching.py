@@ -4,6 +4,7 @@ from typing import Final
 
 from reactive_realizer.bml.behaviors import REACH
 from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.names import OWN
 from reactive_realizer.bml.smartbody.attributes import (
     OTHER_POINTS,
     drop,
@@ -31,14 +32,17 @@ _MOMENT: Final = "0.1"
 def adapt_reach(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a reach, in place, and returns the faults of what is left out.
 
-    A hand comes back by itself, so a reach that only ends another one does nothing.
+    A hand comes back by itself, so a reach that only ends another one does nothing; if it puts something down, the hand
+    lets go of it.
     """
     rename(tree, "target-pos", "target")
     action = take(tree, "action").lower()
     finishes = take(tree, "reach-finish").lower() == "true"
     drop(tree, "handle", "foot-ik")
     if finishes or "target" not in tree.attrib:
-        return _nothing(tree, source)
+        released = _ACTIONS.get(action) is Reach.PUT
+        _choose_hand(tree, take(tree, "reach-type") or take(tree, "reach-arm"))
+        return _release(tree, source) if released else _nothing(tree, source)
     hold = take_number(tree, "reach-duration", source, -1.0, _LONGEST)
     if hold is not None and hold >= 0.0:
         set_parameter(tree, _HOLD, f"{hold:g}", source)
@@ -47,11 +51,12 @@ def adapt_reach(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def adapt_grab(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites a grab, in place: the hand takes its target, if it has one."""
+    """Rewrites a grab, in place: the hand takes its target, if it has one, or lets go of what it carries."""
+    releases = take(tree, "release-pawn").lower() == "true"
     drop(tree, "handle", "grab-state")
-    if "target" not in tree.attrib:
-        return _nothing(tree, source)
     _choose_hand(tree, take(tree, "grab-type"))
+    if "target" not in tree.attrib:
+        return _release(tree, source) if releases else _nothing(tree, source)
     return _go(tree, Reach.TAKE, source)
 
 
@@ -90,9 +95,18 @@ def _go(tree: Tree, action: str, source: BlockSource) -> list[Fault]:
     return faults
 
 
-def _nothing(tree: Tree, source: BlockSource) -> list[Fault]:
+def _release(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Rewrites the behavior of hands, all unless one is chosen, as one in which they let go of what they carry."""
     faults = left_out(tree, source)
     drop(tree, "target", *OTHER_POINTS)
+    tree.set("mode", tree.get("mode", Mode.BOTH_HANDS))
+    tree.tag = f"{{{OWN}}}release"
+    return faults
+
+
+def _nothing(tree: Tree, source: BlockSource) -> list[Fault]:
+    faults = left_out(tree, source)
+    drop(tree, "target", "mode", *OTHER_POINTS)
     tree.tag = "wait"
     tree.set("duration", _MOMENT)
     return faults

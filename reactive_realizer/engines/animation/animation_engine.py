@@ -27,6 +27,7 @@ from reactive_realizer.bml.glance import Glance
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlGesture
+from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
@@ -107,6 +108,7 @@ class AnimationEngine(DefaultEngine):
         MurmlGesture,
         IdleChange,
         Glance,
+        Release,
         Gesture,
         Head,
         HeadDirectionShift,

@@ -42,6 +42,7 @@ from reactive_realizer.engines.animation.motions.noise import NoiseMaker
 from reactive_realizer.engines.animation.motions.pointing_maker import PointingMaker
 from reactive_realizer.engines.animation.motions.posture import PostureMaker
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionMaker
+from reactive_realizer.engines.animation.motions.release import ReleaseMaker
 from reactive_realizer.engines.animation.motions.sequence_maker import SequenceMaker
 from reactive_realizer.engines.animation.motions.transition import TransitionMaker
 from reactive_realizer.errors import Fault, RealizerError
@@ -59,6 +60,7 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "head-direction": HeadDirectionMaker,
         "glance": GlanceMaker,
         "pointing": PointingMaker,
+        "release": ReleaseMaker,
         "Keyframe": KeyframeMaker,
         "noise": NoiseMaker,
         "transition": TransitionMaker,

@@ -3,6 +3,7 @@
 import pytest
 
 from reactive_realizer.bml.behaviors import REACH, Locomotion, Pointing, Wait
+from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import Mode
 
 from .reading import behaviors, only
@@ -36,12 +37,26 @@ def test_a_reach_has_a_hand_a_place_and_a_duration() -> None:
     "finishes",
     [
         '<sbm:reach sbm:action="touch" target="box" sbm:reach-finish="true" stroke="1"/>',
-        '<sbm:reach sbm:action="put-down"/>',
         '<sbm:grab sbm:handle="h" sbm:grab-state="return"/>',
     ],
 )
 def test_what_only_ends_a_reach_does_nothing_but_has_times(finishes: str) -> None:
     assert isinstance(only(finishes), Wait)
+
+
+@pytest.mark.parametrize(
+    ("releases", "mode"),
+    [
+        ('<sbm:grab sbm:handle="h" sbm:release-pawn="true" stroke="1"/>', Mode.BOTH_HANDS),
+        ('<sbm:grab sbm:release-pawn="TRUE" sbm:grab-type="left"/>', Mode.LEFT_HAND),
+        ('<sbm:reach sbm:action="put-down" sbm:reach-finish="true" target="box"/>', Mode.BOTH_HANDS),
+        ('<sbm:reach sbm:action="put-down" sbm:reach-type="right"/>', Mode.RIGHT_HAND),
+    ],
+)
+def test_hands_let_go_of_what_they_carry(releases: str, mode: Mode) -> None:
+    release = only(releases)
+    assert isinstance(release, Release)
+    assert (release.mode, dict(release.syncs)) == (mode, {})
 
 
 def test_a_grab_takes_its_target() -> None:

@@ -19,7 +19,6 @@ WITHOUT_COUNTERPART = {
     "locomotionBlendCEGUI.py": "y, mode, sbm:schedule-mode, sbm:wrap-mode",
     "KinectSimpleDemo.py": "x, y, sbm:wrap-mode",
     "OgreDemo.js": "x, y",
-    "MeCtBodyReachState.cpp": "sbm:release-pawn",
 }
 """Attributes in SmartBody's examples that nothing here corresponds to."""
 
