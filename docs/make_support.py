@@ -235,6 +235,7 @@ spellings of the drafts. It does not guess: anything outside this table causes a
 | `speech language`, `voice`, `type`, and points of gestures | ignored: the voice of the character speaks |
 | `<pitchaccent>`, `<boundary>` in a `speech` | [SSML](voices.md#ssml): emphasis on the words, a break |
 | `<reference>beat=Circle</reference>` in a description | the `lexeme`, if there is no other |
+| `<param name="..." value="..."/>` in a behavior | [`bmlt:parameter`](#parameter-of-any-behavior-of-bmlt) |
 | `description level="..."`, or without `priority` | `priority`, or 0 |
 | `<lips>`, `<curves>` | left out with one warning: the lips follow the sound |
 | `synchronize ref="..."` | an additional `sync` in it |

@@ -13,9 +13,9 @@ from typing import Final
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.draft_speech import modernize_speech
 from reactive_realizer.bml.faults import UnknownWord
-from reactive_realizer.bml.names import BMLA
+from reactive_realizer.bml.names import BMLA, BMLT
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
-from reactive_realizer.bml.trees import Tree, children_of, name_of, stray_text_of
+from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, name_of, stray_text_of
 from reactive_realizer.errors import Fault, RealizerError
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
@@ -54,6 +54,8 @@ def modernize(tree: Tree, source: BlockSource) -> list[Fault]:
         RealizerError: ``bad-attribute``: BML 1.0 has no equivalent.
     """
     _rename_points(tree)
+    for parameter in children_of(tree, "param"):
+        parameter.tag = f"{{{BMLT}}}{PARAMETER}"
     for description in children_of(tree, "description"):
         _rename(description, "level", "priority")
         if "priority" not in description.attrib:

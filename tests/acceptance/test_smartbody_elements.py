@@ -128,6 +128,19 @@ async def test_the_emphasis_of_a_motion_is_where_the_stroke_is_tied(open_still: 
     assert np.argmax(np.abs(raised[:, 3])) == pytest.approx(50 * stroke, abs=2)
 
 
+@pytest.mark.parametrize(("speed", "duration"), [("2", 0.75), ("0.5", 3.0)])
+async def test_an_animation_plays_at_its_speed(
+    open_still: OpenStill, tmp_path: Path, speed: str, duration: float
+) -> None:
+    (tmp_path / "Brad@Raise.skm").write_text(MOTION)
+    async with open_still(tmp_path) as pilot:
+        pilot.perform(act(f'<animation id="a" name="Brad@Raise" speed="{speed}"/>'))
+        await pilot.advance(4)
+        start, end = (pilot.feedback.time(f"document1:a:{point}") for point in ("start", "end"))
+    assert pilot.feedback.warnings == []
+    assert end - start == pytest.approx(duration, abs=0.011)
+
+
 async def test_the_posture_of_a_body_may_be_the_first_frame_of_a_motion(open_still: OpenStill, tmp_path: Path) -> None:
     (tmp_path / "Brad@Idle02.skm").write_text(MOTION.replace("kt 0 fr 0 0 -1.5", "kt 0 fr 0 0 -0.9"))
     async with open_still(tmp_path) as pilot:

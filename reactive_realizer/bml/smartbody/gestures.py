@@ -3,8 +3,8 @@
 from typing import Final
 
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.names import BMLT
-from reactive_realizer.bml.smartbody.attributes import drop, left_out, take, take_number, tie
+from reactive_realizer.bml.names import BMLT, SBM
+from reactive_realizer.bml.smartbody.attributes import drop, left_out, set_parameter, take, take_number, tie
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.errors import Fault
 
@@ -43,6 +43,17 @@ _OF_CLIPS: Final = (
     "z",
 )
 """Attributes for the choice, the combination and the mixture of clips."""
+_AS_HERE: Final = {
+    "additive": "false",
+    "overlay": "false",
+    "loop": "false",
+    "mode": "schedule",
+    "blend-mode": "overwrite",
+    "wrap-mode": "once",
+    "schedule-mode": "now",
+}
+"""Attributes of clips, and the values with which they ask for what happens here anyway."""
+_SPEEDS: Final = (0.05, 20.0)
 _EARLY_POINTS: Final = ("ready", "stroke_start", "strokeStart", "stroke")
 _HOLDS: Final = {"prestroke_hold": ("ready", "strokeStart"), "poststroke_hold": ("strokeEnd", "relax")}
 _LONGEST_HOLD: Final = 60.0
@@ -67,11 +78,15 @@ def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites an animation, a state or a blend, in place: the clip of its name is played as it is."""
+    """Rewrites an animation, a state or a blend, in place: the clip of its name is played once, from its start on."""
     _start_as_early_as_possible(tree)
-    if tree.get("speed", "1") in {"1", "1.0"}:
-        drop(tree, "speed")
-    faults = left_out(tree, source, *_OF_CLIPS, "speed", "loop", "mode")
+    speed = take_number(tree, "speed", source, *_SPEEDS)
+    if speed is not None and speed != 1.0:
+        set_parameter(tree, "speed", f"{speed:g}", source)
+    for name, value in _AS_HERE.items():
+        if value in {tree.get(name, "").lower(), tree.get(f"{{{SBM}}}{name}", "").lower()}:
+            drop(tree, name)
+    faults = left_out(tree, source, *_OF_CLIPS, "loop", "mode")
     tree.tag = _CLIP
     return faults
 

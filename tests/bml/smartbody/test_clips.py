@@ -47,9 +47,41 @@ def test_what_names_a_clip_plays_it(written: str) -> None:
 
 def test_the_mixture_of_a_blend_is_told() -> None:
     (sentence,) = told('<blend name="step" x="1" y="0" sbm:wrap-mode="Once"/>')
-    assert sentence == "x, y, sbm:wrap-mode of SmartBody has no effect on <blend> here"
+    assert sentence == "x, y of SmartBody has no effect on <blend> here"
 
 
 def test_a_gesture_with_its_stroke_at_0_starts_as_early_as_possible() -> None:
     assert list(only('<gesture lexeme="BEAT" stroke="0" relax="2"/>').syncs) == ["relax"]
     assert list(only('<gesture lexeme="BEAT" stroke="0" start="0"/>').syncs) == ["stroke", "start"]
+
+
+@pytest.mark.parametrize(
+    "as_here",
+    [
+        '<animation name="Brad@Chop" loop="false" overlay="false" sbm:additive="false" speed="1.0"/>',
+        '<blend name="Brad@Chop" mode="schedule" sbm:wrap-mode="Once" sbm:blend-mode="Overwrite"/>',
+        '<sbm:states name="Brad@Chop" sbm:schedule-mode="Now"/>',
+    ],
+)
+def test_what_asks_for_how_clips_play_anyway_is_not_told(as_here: str) -> None:
+    clip = only(as_here)
+    assert isinstance(clip, Keyframe)
+    assert clip.parameters == {}
+
+
+def test_what_clips_cannot_do_is_told() -> None:
+    (sentence,) = told('<animation name="Brad@Chop" loop="true" sbm:additive="true" overlay="false"/>')
+    assert sentence == "loop, sbm:additive of SmartBody has no effect on <animation> here"
+
+
+def test_an_animation_has_a_speed() -> None:
+    assert only('<animation name="Brad@Chop" speed="1.5"/>').parameters == {"speed": "1.5"}
+    (sentence,) = told('<animation name="Brad@Chop" speed="0"/>')
+    assert sentence == "speed='0' of <animation>: not between 0.05 and 20"
+
+
+def test_parameters_of_a_motion_may_be_written_as_in_drafts() -> None:
+    clip = only('<animation name="Brad@Chop"><param name="mirror" value="true"/></animation>')
+    assert clip.parameters == {"mirror": "true"}
+    gesture = only('<gesture lexeme="BEAT"><param name="spatialExtent" value="0.5"/></gesture>')
+    assert gesture.parameters == {"spatialExtent": "0.5"}

@@ -16,8 +16,8 @@ NOT_WHOLE = {
 
 
 WITHOUT_COUNTERPART = {
-    "locomotionBlendCEGUI.py": "y, mode, sbm:schedule-mode, sbm:wrap-mode",
-    "KinectSimpleDemo.py": "x, y, sbm:wrap-mode",
+    "locomotionBlendCEGUI.py": "y, mode, sbm:wrap-mode",
+    "KinectSimpleDemo.py": "x, y",
     "OgreDemo.js": "x, y",
 }
 """Attributes in SmartBody's examples that nothing here corresponds to."""

@@ -39,6 +39,9 @@ FILTER = "filter"
 GROUP = "group"
 """Parameter for the body group to which the motion is restricted."""
 
+SPEED = "speed"
+"""Parameter for the speed at which it plays by default, 1 for that of the file."""
+
 FADE_IN, FADE_OUT = "fadeIn", "fadeOut"
 """Parameters for the shares of its duration in which its weight rises and falls."""
 
@@ -51,11 +54,16 @@ class KeyframeMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.FULL_BODY
-    fixed = FILE_PARAMETERS | {FILTER, GROUP, FADE_IN, FADE_OUT}
+    fixed = FILE_PARAMETERS | {FILTER, GROUP, SPEED, FADE_IN, FADE_OUT}
     predictability = Predictability.ALWAYS
 
     def __init__(
-        self, clip: Clip, rest: Body, lacking: frozenset[str] = frozenset(), fades: tuple[float, float] = (0.0, 0.0)
+        self,
+        clip: Clip,
+        rest: Body,
+        lacking: frozenset[str] = frozenset(),
+        fades: tuple[float, float] = (0.0, 0.0),
+        speed: float = 1.0,
     ) -> None:
         """Prepare a motion.
 
@@ -64,12 +72,13 @@ class KeyframeMotionUnit(MotionUnit):
             rest: the figure at rest.
             lacking: requested joints that the clip or the figure lacks.
             fades: shares of its duration in which its weight rises and falls.
+            speed: at which it plays by default, 1 for that of the clip.
         """
         self.parameters = {}
         self.lacking = lacking
         self.joints = frozenset(clip.joints)
         self.resources = resources_used(self.joints)
-        self.preferred_duration = clip.duration
+        self.preferred_duration = clip.duration / speed
         self.entrance = start_duration(clip.duration)
         self._clip = clip
         self._fades = fades
@@ -111,14 +120,14 @@ class KeyframeMotionUnit(MotionUnit):
 
 _log = logging.getLogger(__name__)
 
-_RANGES = {FILTER: Range(0.0, 1e6), FADE_IN: Range(0.0, 1.0), FADE_OUT: Range(0.0, 1.0)}
+_RANGES = {FILTER: Range(0.0, 1e6), SPEED: Range(0.05, 20.0), FADE_IN: Range(0.0, 1.0), FADE_OUT: Range(0.0, 1.0)}
 
 
 class KeyframeMaker:
     """Makes motions of keyframes in BML or in files.
 
     Parameters are `mirror`, then `joints`, a selection (thesis C.1.2), or `group`; `filter`, a low-pass, Hz (3.2.2.2);
-    `fadeIn` and `fadeOut`.
+    `speed`, `fadeIn` and `fadeOut`.
     """
 
     def __init__(self, context: MakerContext) -> None:
@@ -140,7 +149,7 @@ class KeyframeMaker:
             _log_once(clip.name, ", ".join(sorted(lacking)))
         values = parameter_values(request.parameters, _RANGES)
         fades = values.get(FADE_IN, 0.0), values.get(FADE_OUT, 0.0)
-        return KeyframeMotionUnit(clip.only(there), self._context.rest.body, lacking, fades)
+        return KeyframeMotionUnit(clip.only(there), self._context.rest.body, lacking, fades, values.get(SPEED, 1.0))
 
     def _group(self, request: MotionRequest, clip: Clip) -> frozenset[str]:
         """Return the joints of the clip that are in the requested group, by default all.
