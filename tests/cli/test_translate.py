@@ -62,8 +62,8 @@ def translated(path: Path, capsys: pytest.CaptureFixture[str]) -> str:
     return capsys.readouterr().out
 
 
-async def performance(text: str) -> tuple[list[str], np.ndarray]:
-    async with open_pilot(SceneOptions(voice="text")) as pilot:
+async def performance(text: str, *assets: Path) -> tuple[list[str], np.ndarray]:
+    async with open_pilot(SceneOptions(voice="text", assets=assets)) as pilot:
         pilot.watch()
         pilot.perform(text)
         await pilot.advance(3)
@@ -84,6 +84,38 @@ async def test_a_translation_plays_the_same_frame_by_frame(
     again, other = await performance(meant)
     assert [each for each in reports if "warning" not in each] == [each for each in again if "warning" not in each]
     assert np.array_equal(frames, other)
+
+
+CLIPS = """
+<act><bml>
+  <speech id="s"><text>Up <mark name="w"/>with your hands.</text></speech>
+  <animation name="Brad@Raise" speed="1.5" stroke="s:w"/>
+  <body posture="Brad@Raise" start="2"/>
+  <sbm:grab sbm:release-pawn="true" start="1"/>
+</bml></act>
+"""
+MOTION = """SkMotion
+channels 1
+l_shoulder Quat
+frames 3
+kt 0 fr 0 0 -0.9
+kt 0.2 fr 0 0 0.5
+kt 1.5 fr 0 0 -1.5
+emphasis time: 0.2
+"""
+
+
+async def test_a_translation_of_clips_of_smartbody_plays_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "Brad@Raise.skm").write_text(MOTION)
+    path = tmp_path / "script"
+    path.write_text(CLIPS)
+    reports, frames = await performance(CLIPS, tmp_path)
+    again, other = await performance(translated(path, capsys), tmp_path)
+    assert reports == again
+    assert np.array_equal(frames, other)
+    assert np.ptp(frames, axis=0).max() > 0.2
 
 
 def test_a_translation_of_a_translation_is_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -161,6 +161,8 @@ def test_the_twist_of_a_forearm_belongs_to_the_elbow(tmp_path: Path) -> None:
     [
         (["Brad.sk", "Rachel.sk"], "Brad.sk"),
         (["../skeletons/Brad.sk", "Rachel.sk"], "../skeletons/Brad.sk"),
+        (["../skeletons/Rachel.sk", "../Other.sk"], "../skeletons/Rachel.sk"),
+        (["../skeletons/Rachel.sk", "../skeletons/Other.sk"], None),
         (["../Brad.sk"], "../Brad.sk"),
         (["Other.sk"], "Other.sk"),
         (["Other.sk", "Rachel.sk"], None),
@@ -258,6 +260,13 @@ def test_errors_of_a_skeleton_name_its_line(tmp_path: Path, text: str, message: 
         load(tmp_path, MOTION, text)
     assert raised.value.fault.code == "bad-capture"
     assert str(raised.value).startswith("Figure.sk, line ")
+
+
+def test_a_motion_of_a_face_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(RealizerError, match="it moves no joint that the figure has, such as one of a face"):
+        load(tmp_path, skm({}, turned=("Head",), names={"Head": "JtCheek"}), sk().replace("JtNeckA", "JtCheek"))
+    with pytest.raises(RealizerError, match="it moves no joint that the figure has"):
+        load(tmp_path, skm({}, turned=("Head",), names={"Head": "JtEyeLf"}), sk().replace("JtNeckA", "JtEyeLf"))
 
 
 def test_a_motion_for_another_skeleton_is_refused(tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
 """Loads clips from files of any format, for one figure. The suffix of a file says what its format is."""
 
-from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 from typing import Final
@@ -83,16 +82,14 @@ def skeleton_beside(motion: Path) -> Path | None:
     """Return the skeleton that a motion of SmartBody is for; None if none is beside it.
 
     The motion ``ChrBrad@Wave01.skm`` is for ``ChrBrad.sk``, in its folder, in the one above, or in ``skeletons`` there,
-    as in SmartBody's data. Otherwise it is for the only skeleton in its folder.
+    as in SmartBody's data. Otherwise it is for the only skeleton in its folder or in ``skeletons``.
     """
-    found = [file for folder in _folders(motion) for file in sorted(folder.glob(f"*{_SKELETON}"))]
-    named = [file for file in found if motion.stem.startswith((f"{file.stem}@", f"{file.stem}_"))]
+    above = motion.parent.parent
+    found = {folder: sorted(folder.glob(f"*{_SKELETON}")) for folder in (motion.parent, above / "skeletons", above)}
+    named = [
+        file for files in found.values() for file in files if motion.stem.startswith((f"{file.stem}@", f"{file.stem}_"))
+    ]
     if named:
         return max(named, key=lambda file: len(file.stem))
-    beside = [file for file in found if file.parent == motion.parent]
-    return beside[0] if len(beside) == 1 else None
-
-
-def _folders(motion: Path) -> Iterator[Path]:
-    above = motion.parent.parent
-    yield from (motion.parent, above, above / "skeletons")
+    found.pop(above, None)
+    return next((files[0] for files in found.values() if len(files) == 1), None)

@@ -115,7 +115,8 @@ def retargeted(capture: Capture, skeleton: Skeleton) -> Clip:
     figure started.
 
     Raises:
-        RealizerError: "bad-capture": its joints are unknown, the figure does not stand upright, or it moves too far.
+        RealizerError: "bad-capture": its joints are unknown, the figure does not stand upright, it moves too far, or
+            the motion is about none of the figure's joints.
     """
     source = _CapturedFigure(capture, skeleton)
     played = source.played()
@@ -156,8 +157,7 @@ class _CapturedFigure:
         """Return the rotations of some joints, (F, J, 4), each local to the one above it among them."""
         turned = {joint: self._turned[:, self._bearing[joint]] for joint in played}
         own = {joint: product(turned[joint], np.array(self._alignment(joint))) for joint in played}
-        steps = [self._local(joint, own) for joint in played]
-        return np.stack(steps, axis=1) if steps else np.zeros((len(self._turned), 0, 4))
+        return np.stack([self._local(joint, own) for joint in played], axis=1)
 
     def roots(self) -> Array:
         """Return the displacement of the root from the first frame, (F, 3), m."""
@@ -169,9 +169,16 @@ class _CapturedFigure:
         return turned
 
     def played(self) -> tuple[str, ...]:
-        """Return the joints that the motion is about."""
+        """Return the joints that the motion is about.
+
+        Raises:
+            RealizerError: "bad-capture": there are none.
+        """
         about = self._capture.played
-        return tuple(joint for joint in self.joints if about is None or about.intersection(self._turning(joint)))
+        played = tuple(joint for joint in self.joints if about is None or about.intersection(self._turning(joint)))
+        if not played:
+            raise self._bad("it moves no joint that the figure has, such as one of a face")
+        return played
 
     def _turning(self, joint: str) -> tuple[int, ...]:
         """Return the captured joints whose rotations are that of a joint, from the last one up."""
