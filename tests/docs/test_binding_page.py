@@ -95,6 +95,20 @@ def test_the_binding_with_a_description_of_murml_is_valid(tmp_path: Path) -> Non
     read_murml_text(spec.defaults[MURML_TEXT], "example", Scope.RIGHT)
 
 
+async def test_the_gesture_of_embots_plays_with_the_entry_on_the_page(assets: Path, tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text(
+        '[character.alice]\navatar = "avatars/female.glb"\nbindings = { gesture = "embots.xml" }\n', encoding="utf-8"
+    )
+    async with open_pilot(SceneOptions(human, "text", (assets,))) as pilot:
+        pilot.block("b", '<gesture id="g" lexeme="invite"/><gesture id="h" lexeme="invite_RH" start="g:end"/>')
+        await pilot.advance(6)
+    told = pilot.feedback
+    assert told.warnings == []
+    assert told.time("b:g:strokeEnd") - told.time("b:g:ready") == pytest.approx(0.5)
+    assert told.time("b:h:relax") - told.time("b:h:start") == pytest.approx(1.3, abs=0.2)
+
+
 def test_the_page_lists_every_kind_of_motion() -> None:
     table = TEXT.partition("## Kinds of motion")[2].partition("## Rest")[0]
     firsts = [line.split(" | ")[0] for line in table.splitlines() if line.startswith("| `")]

@@ -55,6 +55,7 @@ PARAMETERS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
 
 _WORD = re.compile(r"[^\s#]+")
 _BEGIN, _END = "BEGIN", "END"
+_SYNC = re.compile(r"#.*\bSYNC:(\w+)")
 
 
 class Value(NamedTuple):
@@ -78,12 +79,14 @@ class Node:
         location: of its BEGIN.
         values: of its parameters, the last one of each.
         children: in order.
+        sync: the sync point in the comment behind its BEGIN (``# SYNC:ready``), as EMBOTS writes it in its lexicon.
     """
 
     name: str
     location: Location
     values: dict[str, Value] = field(default_factory=dict)
     children: list["Node"] = field(default_factory=list)
+    sync: str = ""
 
 
 class _Token(NamedTuple):
@@ -103,7 +106,9 @@ def read_nodes(text: str) -> tuple[Node, list[Fault]]:
     Returns:
         A node with the elements of the script, TIME_RESET among them; and the faults of what is left out, in order.
     """
-    reader = _NodeReader()
+    reader = _NodeReader(
+        {row: found[1] for row, line in enumerate(text.splitlines(), 1) if (found := _SYNC.search(line))}
+    )
     for token in _tokens(text):
         reader.take(token)
     reader.finish()
@@ -111,9 +116,14 @@ def read_nodes(text: str) -> tuple[Node, list[Fault]]:
 
 
 class _NodeReader:
-    """Builds the elements of a script from its words."""
+    """Builds the elements of a script from its words.
 
-    def __init__(self) -> None:
+    Args:
+        syncs: the sync points in comments, by line.
+    """
+
+    def __init__(self, syncs: Mapping[int, str]) -> None:
+        self._syncs = syncs
         self.script = Node(SCRIPT, Location(1, 1))
         self.faults: list[Fault] = []
         self._open = [self.script]
@@ -155,7 +165,7 @@ class _NodeReader:
                 self._fault(UnknownScriptWord(word=token.text, parent=parent.name, known=known), token.location)
             self._unknown += 1
             return
-        node = Node(token.text, token.location)
+        node = Node(token.text, token.location, sync=self._syncs.get(token.location.line, ""))
         parent.children.append(node)
         self._open.append(node)
 

@@ -31,6 +31,7 @@ from reactive_realizer.engines.animation.motion_parameters import (
 )
 from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
 from reactive_realizer.engines.animation.motions.controller import ControllerMaker
+from reactive_realizer.engines.animation.motions.embr_gesture import EmbrGestureMaker
 from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
 from reactive_realizer.engines.animation.motions.gesture import GestureMaker
 from reactive_realizer.engines.animation.motions.glance import GlanceMaker
@@ -66,6 +67,7 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "transition": TransitionMaker,
         "key-poses": KeyPosesMaker,
         "MURML": MurmlMaker,
+        "EMBRScript": EmbrGestureMaker,
         "locomotion": LocomotionMaker,
         "posture": PostureMaker,
         "posture-shift": PostureMaker,

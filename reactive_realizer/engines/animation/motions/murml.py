@@ -32,12 +32,7 @@ from reactive_realizer.engines.animation.key_poses.arm_pose import hand_axes
 from reactive_realizer.engines.animation.key_poses.gesture_space import arm_length, gesture_place
 from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, SeveralPoses, SolvedPose
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
-from reactive_realizer.engines.animation.motion_unit import (
-    FILE_PARAMETERS,
-    PhaseDuration,
-    arms_used,
-    with_gesture_points,
-)
+from reactive_realizer.engines.animation.motion_unit import FILE_PARAMETERS
 from reactive_realizer.engines.animation.motions.hand_tracks import (
     Course,
     HandTracks,
@@ -45,7 +40,8 @@ from reactive_realizer.engines.animation.motions.hand_tracks import (
     place_course,
     shape_course,
 )
-from reactive_realizer.engines.animation.motions.key_poses import Key, KeyPosesMotionUnit
+from reactive_realizer.engines.animation.motions.key_pose_gesture import KeyPoseGesture, posed
+from reactive_realizer.engines.animation.motions.key_poses import Key
 from reactive_realizer.engines.animation.motions.murml_files import read_murml_file, read_murml_text
 from reactive_realizer.engines.animation.motions.pose_goals import stored_pose
 from reactive_realizer.engines.animation.motions.reaching import reach
@@ -60,34 +56,10 @@ _AXES = {Slot.EXT_FINGER_ORIENTATION: BodyAxis.FINGERS, Slot.PALM_ORIENTATION: B
 _LEFTWARD: Vec3 = (1.0, 0.0, 0.0)
 
 
-class MurmlMotionUnit(KeyPosesMotionUnit):
-    """Prepares from the current pose, plays key poses, and retracts to the rest pose."""
+class MurmlMotionUnit(KeyPoseGesture):
+    """A gesture of MURML."""
 
     fixed = FILE_PARAMETERS | {MURML_TEXT}
-
-    def __init__(
-        self, name: str, keys: Sequence[Key], rest: Body, points: Mapping[str, float], fade_out: float
-    ) -> None:
-        """Plan a gesture.
-
-        Args:
-            name: for messages.
-            keys: one or more, in order.
-            rest: the expected body at the start and at the end.
-            points: sync id -> time, s: of the values with an id.
-            fade_out: duration of the retraction, s.
-        """
-        stroke = {"ready": keys[0].reached, "strokeEnd": keys[-1].reached if len(keys) > 1 else keys[0].left}
-        super().__init__(name, keys, rest, {**points, **stroke}, (0.0, fade_out))
-        self.key_positions = with_gesture_points(self.key_positions)
-        self.resources = arms_used(self.joints)
-
-    def preparation(self, body: Body) -> PhaseDuration | None:
-        """Return the duration of the way from a body to the first key pose; none is needed if that is shown at once."""
-        first = self._keys[0]
-        if first.reached == 0.0:
-            return None
-        return reach(body, _posed(body, first.pose), self.joints)
 
 
 class MurmlMaker:
@@ -150,7 +122,7 @@ class MurmlMaker:
         lacking = {joint for joint in named if joint not in known and not folded_spine([joint], known)}
         if not rotations:
             raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element="murmlgesture"))
-        last = _posed(rest, keys[-1].pose)
+        last = posed(rest, keys[-1].pose)
         joints = frozenset(rotations)
         motion = MurmlMotionUnit(name, keys, rest, {}, reach(last, rest, joints).preferred)
         motion.lacking = frozenset(lacking)
@@ -181,7 +153,7 @@ class _Stroke:
         first = {course[0] for course in courses}
         poses = [self._at(position) for position in positions]
         joints = frozenset(joint for pose in poses for joint in pose.joints)
-        bodies = [rest, *(_posed(rest, pose) for pose in poses), rest]
+        bodies = [rest, *(posed(rest, pose) for pose in poses), rest]
         ways = [reach(before, after, joints).preferred for before, after in pairwise(bodies)]
         times = list(accumulate(ways[:-1]))
         locations = {mark.position: mark.location for mark in reversed(self._marks)}
@@ -253,11 +225,6 @@ class _Stroke:
 def _heading_course(marks: Sequence[Mark]) -> Course[Vec3]:
     directions = [unit(mark.value.direction) for mark in marks if isinstance(mark.value, Heading)]
     return direction_course([mark.position for mark in marks], directions)
-
-
-def _posed(body: Body, pose: JointPose) -> Body:
-    """Return a body in a pose."""
-    return body.posed(pose.solve(body, {joint: body.rotation(joint) for joint in pose.joints}).rotations)
 
 
 def _turn(values: Sequence[float]) -> Quat:

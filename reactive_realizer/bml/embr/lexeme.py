@@ -1,0 +1,104 @@
+"""Lexemes of EMBOTS: gestures as pose sequences of EMBRScript, with the sync points of BML in comments."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Final, NamedTuple
+
+from reactive_realizer.bml.embr.faults import NoSequence, UnknownName
+from reactive_realizer.bml.embr.nucleus import Nuclei
+from reactive_realizer.bml.embr.sequence import SequenceReader
+from reactive_realizer.bml.embr.syntax import SEQUENCE, read_nodes
+from reactive_realizer.bml.embr.timeline import Timed, timed
+from reactive_realizer.bml.embr.values import Notes
+from reactive_realizer.bml.key_poses import KeyPoses
+from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.limits import Limits
+
+_START, _END = "start", "end"
+_POINTS: Final[Mapping[str, str]] = MappingProxyType(
+    {
+        "ready": "ready",
+        "stroke_start": "strokeStart",
+        "stroke": "stroke",
+        "stroke_end": "strokeEnd",
+        "relax": "relax",
+    }
+)
+"""Label of a pose -> the sync point of BML at its time."""
+
+
+class EmbrLexeme(NamedTuple):
+    """A gesture, from its preparation until it relaxes. Times count from its start, s.
+
+    Attributes:
+        groups: the key poses of each body group; all start with the gesture.
+        holds: for each key pose, its time and the end of its hold, in order.
+        points: sync id -> time.
+        notes: faults of what is left out.
+    """
+
+    groups: tuple[KeyPoses, ...]
+    holds: tuple[tuple[float, float], ...]
+    points: Mapping[str, float]
+    notes: tuple[Fault, ...]
+
+
+def read_lexeme(text: str) -> EmbrLexeme:
+    """Return the gesture of a file.
+
+    Poses up to the one with the label ``start``, and from the one with the label ``end``, are rest poses of EMBR's
+    figures: the gesture is prepared from the current pose instead, and retracted to the rest pose of the character. As
+    in EMBOTS, the stroke begins after the hold of ``ready``, and the gesture relaxes after that of ``stroke_end``;
+    without a ``stroke_end``, the hold of ``ready`` is the stroke.
+
+    Raises:
+        RealizerError: "embr-no-sequence": there is no sequence with a key pose of the body.
+    """
+    script, faults = read_nodes(text)
+    sequence = next((node for node in script.children if node.name == SEQUENCE), None)
+    if sequence is None:
+        raise RealizerError(faults[0] if faults else NoSequence(line=1, column=1))
+    notes = Notes(Limits())
+    notes.faults += faults
+    poses = list(timed(sequence, 0.0, Notes(Limits())))
+    begin = next((pose.reached for pose in poses if pose.node.sync == _START), 0.0)
+    stroke = _between_rest_poses(poses)
+    kept = replace(sequence, children=[pose.node for pose in stroke])
+    groups = []
+    for behavior in SequenceReader(kept, "gesture", Nuclei(script.children, notes), notes).behaviors():
+        if isinstance(behavior, KeyPoses):
+            moved = tuple(replace(pose, time=round(pose.time - begin, 6)) for pose in behavior.poses)
+            groups.append(replace(behavior, poses=moved))
+        else:
+            notes.left_out(f"<{behavior.name}>", "a gesture has only key poses of the body", behavior.location)
+    if not groups:
+        raise RealizerError(NoSequence(line=1, column=1))
+    holds = tuple((round(pose.reached - begin, 6), round(pose.left - begin, 6)) for pose in stroke)
+    points = {sync: round(time - begin, 6) for sync, time in _points(stroke, notes).items()}
+    return EmbrLexeme(tuple(groups), holds, points, tuple(notes.faults))
+
+
+def _between_rest_poses(poses: Sequence[Timed]) -> Sequence[Timed]:
+    labels = [pose.node.sync for pose in poses]
+    first = labels.index(_START) + 1 if _START in labels else 0
+    last = labels.index(_END) if _END in labels else len(labels)
+    return poses[first:last]
+
+
+def _points(stroke: Iterable[Timed], notes: Notes) -> dict[str, float]:
+    points: dict[str, float] = {}
+    labels: dict[str, Timed] = {}
+    for pose in stroke:
+        if pose.node.sync in _POINTS:
+            labels[pose.node.sync] = pose
+            points[_POINTS[pose.node.sync]] = pose.reached
+        elif pose.node.sync:
+            fault = UnknownName(kind="SYNC", name=pose.node.sync, known=(_START, *_POINTS, _END))
+            notes.add(fault, pose.node.location)
+    implied: dict[str, float] = {}
+    if (last := labels.get("stroke_end")) is not None:
+        implied["relax"] = last.left
+    if (ready := labels.get("ready")) is not None:
+        implied |= {"strokeStart": ready.left} if last is not None else {"strokeEnd": ready.left, "relax": ready.left}
+    return {**implied, **points}
