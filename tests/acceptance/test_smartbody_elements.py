@@ -149,3 +149,40 @@ async def test_the_posture_of_a_body_may_be_the_first_frame_of_a_motion(open_sti
         shown = turns(pilot, "l_shoulder")
     assert pilot.feedback.warnings == []
     assert 2.0 * np.degrees(np.arcsin(shown[-1, 3])) == pytest.approx(90.0 - np.degrees(0.9), abs=3.0)
+
+
+async def head_turns(open_still: OpenStill, attributes: str) -> npt.NDArray[np.float64]:
+    """The turn of the head while a movement plays, down and to the left, rad, (F, 2)."""
+    async with open_still() as pilot:
+        pilot.perform(act(f'<head id="h" {attributes} end="3"/>'))
+        await pilot.advance(3.5)
+        joints = (turns(pilot, "skullbase"), turns(pilot, "vc4"))
+    assert pilot.feedback.warnings == []
+    return sum((2.0 * np.arcsin(turn[:, 1:3] * np.sign(turn[:, :1])) for turn in joints), np.zeros(2))
+
+
+def peaks(way: npt.NDArray[np.float64]) -> list[float]:
+    """The greatest values of a course, in order."""
+    inner = range(1, len(way) - 1)
+    return [float(way[i]) for i in inner if way[i - 1] < way[i] >= way[i + 1] and way[i] > 0.002]
+
+
+async def test_a_wiggle_nods_and_dies_away_in_smaller_nods(open_still: OpenStill) -> None:
+    down, left = (await head_turns(open_still, 'type="WIGGLE" sbm:warp="1" sbm:accel="1.5" amount="0.5"')).T
+    largest, *others = peaks(down)
+    assert np.degrees(largest) == pytest.approx(18.0, abs=3.0)
+    assert others
+    assert max(others) < 0.4 * largest
+    assert down.min() > -0.1 * largest
+    assert np.abs(left).max() < 0.01
+
+
+@pytest.mark.parametrize(("pitch", "sides"), [("1", {"left"}), ("0", {"left", "right"}), ("-1", {"right"})])
+async def test_the_pitch_of_a_waggle_says_to_which_sides_it_goes(
+    open_still: OpenStill, pitch: str, sides: set[str]
+) -> None:
+    down, left = (await head_turns(open_still, f'type="WAGGLE" sbm:pitch="{pitch}" amount="0.5"')).T
+    far = {"left": np.degrees(left.max()), "right": np.degrees(-left.min())}
+    assert {side for side, angle in far.items() if angle > 3.0} == sides
+    assert {side for side, angle in far.items() if angle > 1.0} == sides
+    assert np.abs(down).max() < 0.01

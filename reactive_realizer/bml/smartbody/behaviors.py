@@ -38,6 +38,10 @@ _OPPOSITES: Final = {"NOD": "UP", "TOSS": "DOWN"}
 """Movements of the head with an amount below 0; those to both sides only begin to the other side."""
 _WAVES: Final = 3
 """Waves of a wiggle or waggle."""
+_USUAL_PERIOD: Final = 0.5
+_WIGGLE: Final = {"warp": (0.1, 4.0), "accel": (0.5, 3.0)}
+_WAVE_FORMS: Final = {"WIGGLE": _WIGGLE, "WAGGLE": {**_WIGGLE, "pitch": (-1.0, 1.0), "decay": (0.1, 3.0)}}
+"""Parameters of wiggles and waggles that shape their waves, and their ranges."""
 _OF_WALKERS: Final = {"speed": "speed", "facing": "facing", "proximity": "distance"}
 """Attributes of a locomotion, and the parameters that they are here."""
 _MANNERS: Final = {"JOG": "RUN", "SBM:STEP": "STRAFE", "SIDESTEP": "STRAFE"}
@@ -87,8 +91,8 @@ def _head(tree: Tree, source: BlockSource) -> list[Fault]:
     if velocity is not None and velocity != 1.0:
         fixed, each = _STROKES.get(tree.get("type", "").upper(), _NOD)
         tie(tree, "end", "start", (fixed + each * strokes) / velocity)
-    if period is not None:
-        tie(tree, "end", "start", _WAVES * period * strokes)
+    if _shape_wave(tree, source) or period is not None:
+        tie(tree, "end", "start", _WAVES * (_USUAL_PERIOD if period is None else period) * strokes)
     amount = limit_amount(tree)
     if amount < 0.0:
         tree.set("amount", f"{min(-amount, 1.0):g}")
@@ -96,6 +100,16 @@ def _head(tree: Tree, source: BlockSource) -> list[Fault]:
         tree.set("type", _OPPOSITES.get(kind.upper(), kind))
     drop(tree, "axis", "duration", "smooth")
     return left_out(tree, source)
+
+
+def _shape_wave(tree: Tree, source: BlockSource) -> bool:
+    """Gives a wiggle or a waggle the wave that its parameters say; returns whether it has any."""
+    ranges = _WAVE_FORMS.get(tree.get("type", "").upper(), {})
+    values = {name: take_number(tree, name, source, low, high) for name, (low, high) in ranges.items()}
+    given = {name: value for name, value in values.items() if value is not None}
+    for name, value in {"wave": 1.0, **given}.items() if given else ():
+        set_parameter(tree, name, f"{value:g}", source)
+    return bool(given)
 
 
 def _locomotion(tree: Tree, source: BlockSource) -> list[Fault]:

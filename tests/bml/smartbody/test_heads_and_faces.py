@@ -24,9 +24,18 @@ def test_the_period_of_a_waggle_gives_its_duration() -> None:
     assert str(only('<head id="h" type="WAGGLE" sbm:period="0.5"/>').syncs["end"]) == "h:start+1.5"
 
 
-def test_parameters_of_waggles_without_a_counterpart_are_told() -> None:
-    (sentence,) = told('<head type="WAGGLE" sbm:warp="0.5" sbm:accel="1.5" sbm:axis="0"/>')
-    assert sentence == "sbm:warp, sbm:accel of SmartBody has no effect on <head> here"
+def test_parameters_of_waggles_shape_their_waves() -> None:
+    waggle = only('<head type="WAGGLE" sbm:warp="0.5" sbm:accel="1.5" sbm:pitch="0" sbm:decay="0.7" sbm:axis="0"/>')
+    wave = {"warp": "0.5", "accel": "1.5", "pitch": "0", "decay": "0.7"}
+    assert waggle.parameters == {"wave": "1", **wave}
+    assert waggle.syncs.keys() == {"end"}
+    assert only('<head type="wiggle" sbm:accel="1"/>').parameters == {"wave": "1", "accel": "1"}
+    assert only('<head type="WIGGLE" sbm:smooth="0.4"/>').parameters == {}
+
+
+def test_parameters_of_waves_have_no_effect_on_other_movements() -> None:
+    (sentence,) = told('<head type="NOD" sbm:warp="0.5" sbm:decay="1"/>')
+    assert sentence == "sbm:warp, sbm:decay of SmartBody has no effect on <head> here"
 
 
 @pytest.mark.parametrize(("written", "point"), [('ready="1"', "1"), ('stroke="2"', "2"), ('ready="1" stroke="2"', "1")])
