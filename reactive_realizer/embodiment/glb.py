@@ -33,7 +33,7 @@ def read_scene(path: Path) -> dict[str, Any]:
     Raises:
         RealizerError: "bad-avatar": the file is not binary glTF 2, is cut off or exceeds a limit.
     """
-    with path.open("rb") as file:
+    with _opened(path) as file:
         return _scene(path, file)
 
 
@@ -43,7 +43,7 @@ def read_binary(path: Path) -> tuple[dict[str, Any], bytes]:
     Raises:
         RealizerError: as for `read_scene`.
     """
-    with path.open("rb") as file:
+    with _opened(path) as file:
         scene, header = _scene(path, file), file.read(_CHUNK.size)
         if len(header) < _CHUNK.size:
             return scene, b""
@@ -61,6 +61,12 @@ def write_binary(path: Path, scene: Mapping[str, Any], data: bytes) -> None:
 def _chunk(kind: bytes, content: bytes, padding: bytes) -> bytes:
     content += padding * (-len(content) % _ALIGNED)
     return _CHUNK.pack(len(content), kind) + content
+
+
+def _opened(path: Path) -> BinaryIO:
+    if path.exists() and not path.is_file():
+        raise _bad(path, "not a file")  # a pipe would have to be waited for
+    return path.open("rb")
 
 
 def _scene(path: Path, file: BinaryIO) -> dict[str, Any]:

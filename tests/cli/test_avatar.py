@@ -1,5 +1,6 @@
 """The command `avatar`."""
 
+import os
 from importlib.resources import files
 from pathlib import Path
 
@@ -39,6 +40,14 @@ def test_a_file_that_is_no_avatar_is_refused_and_nothing_written(
     (line,) = capsys.readouterr().err.splitlines()
     assert line == "wrong.glb cannot be used as an avatar: not a binary glTF 2 file"
     assert not human.exists()
+
+
+@pytest.mark.timeout(20)
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pipe = tmp_path / "pipe.glb"
+    os.mkfifo(pipe)
+    assert main(["avatar", str(pipe)]) == 2
+    assert "pipe.glb cannot be used as an avatar: not a file" in capsys.readouterr().err
 
 
 def test_it_says_what_a_face_has_and_what_stands_in_for_the_rest(
