@@ -2,8 +2,10 @@
 
 import logging
 import math
+from contextlib import suppress
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -222,6 +224,7 @@ MOTION = skm({}, POSE)
         (MOTION.replace("SkMotion", "Motion"), "line 2: the file should begin with SkMotion"),
         (MOTION.replace("channels", "channel"), "line 6: found 'channel' instead of channels"),
         (MOTION.replace("channels 19", "channels many"), "line 6: 'many' is not a count"),
+        ("SkMotion channels 0 frames 1 kt 0 fr", "line 1: there are no channels"),
         (
             MOTION.replace("JtSpineA Quat", "JtSpineA XRot"),
             "line 9: the channel before is none of XPos, YPos, ZPos and",
@@ -260,6 +263,26 @@ def test_errors_of_a_skeleton_name_its_line(tmp_path: Path, text: str, message: 
         load(tmp_path, MOTION, text)
     assert raised.value.fault.code == "bad-capture"
     assert str(raised.value).startswith("Figure.sk, line ")
+
+
+WORDS = ("", "0", "-1", "1e9", "1e-300", "nan", "}", "{", "kt", "joint", "Quat")
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(st.data())
+def test_a_file_with_any_other_words_is_read_or_refused(
+    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+) -> None:
+    texts = [skm({}, POSE, places=[(0.0, 0.0, 0.0), (0.0, 0.0, 9.0)], end=END), sk()]
+    for number, text in enumerate(texts):
+        words = text.split(" ")
+        for at in data.draw(st.lists(st.integers(0, len(words) - 1), max_size=3)):
+            words[at] = data.draw(st.sampled_from(WORDS))
+        texts[number] = " ".join(words)
+    with suppress(RealizerError):
+        clip = load(tmp_path_factory.mktemp("motion"), *texts)
+        assert np.isfinite(clip.rotations).all()
+        assert clip.roots is None or np.isfinite(clip.roots).all()
 
 
 def test_a_motion_of_a_face_is_refused(tmp_path: Path) -> None:

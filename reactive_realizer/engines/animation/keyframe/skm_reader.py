@@ -157,6 +157,8 @@ def _read(name: str, words: CaptureWords, *, meters: bool) -> SkMotion:
     if word != "channels":
         raise words.bad(f"found '{word}' instead of channels")
     channels = tuple(_channel(words) for _ in range(words.count()))
+    if not channels:
+        raise words.bad("there are no channels")
     word, first = words.next(), None
     if word == "start_kt":
         first, word = words.number(), words.next()
