@@ -36,7 +36,7 @@ from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.inertialization import CARRIED
 from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES
 from reactive_realizer.embodiment.place import Place
-from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over
+from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose, over
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
@@ -67,6 +67,7 @@ from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
 from reactive_realizer.engines.animation.idle_movements import standing_degree
 from reactive_realizer.engines.animation.kinematics import MotionHistory
 from reactive_realizer.engines.animation.late_hands import LateHands
+from reactive_realizer.engines.animation.leaning import Leaning
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
@@ -161,6 +162,7 @@ class AnimationEngine(DefaultEngine):
         self._walk = Walk(context.humanoid)
         self._waiting_arms = WaitingArms(self._release)
         self._trunk_following = TrunkFollowing(context.humanoid.avatar.skeleton)
+        self._leaning = Leaning(context.humanoid.avatar.skeleton, self._humanoid.switch)
         # The controllers that act in the present frame.
         self._acting: dict[AnimationUnit, PhysicalController] = {}
         self._step_turns = StepTurns()
@@ -333,7 +335,8 @@ class AnimationEngine(DefaultEngine):
         follow: tuple[Layer, ...] = self._isolated(
             "trunk following", lambda: self._followed(tick.time, playing, layers, standing), ()
         )
-        posed = (*layers, *follow)
+        lean: tuple[Layer, ...] = self._isolated("leaning", lambda: self._leant(tick.time, (*layers, *follow)), ())
+        posed = (*layers, *follow, *lean)
         feet: tuple[Layer, ...] = self._isolated(
             "foot planting", lambda: self._foot_planting.layers(posed, tick.time, self._walk.feet), ()
         )
@@ -358,6 +361,21 @@ class AnimationEngine(DefaultEngine):
         directed = any(layer.kind is LayerKind.GAZE and not _HEAD.isdisjoint(layer.rotations) for layer in layers)
         steps = 0.0 if self._balances() else standing
         return self._trunk_following.layers(now, arms, self._humanoid.body, directed=directed, standing=steps)
+
+    def _leant(self, now: GlobalTime, layers: Sequence[Layer]) -> tuple[Layer, ...]:
+        """Return the layer in which the trunk leans for hands whose arms do not reach their goals."""
+        uppermost = {
+            side: unit
+            for unit in self.player.stacked(AnimationUnit)
+            for side in SIDES
+            if unit.live and unit.motion.kind in _CLAIMING and f"{side}_shoulder" in unit.motion.joints
+        }
+        asked = {
+            side: (unit, [hand for hand in unit.motion.hands if hand.side == side]) for side, unit in uppermost.items()
+        }
+        if self._leaning.rests and not any(goals for _, goals in asked.values()):
+            return ()
+        return self._leaning.layers(now, asked, compose(self._humanoid.avatar.skeleton, layers).shown)
 
     def _breath(self, now: GlobalTime, standing: float) -> tuple[Layer, ...]:
         for unit in self.player.playing:

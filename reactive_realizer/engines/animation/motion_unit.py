@@ -17,6 +17,7 @@ from reactive_realizer.embodiment.joints import LEFT_ARM, LOWER_BODY, RIGHT_ARM
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
+from reactive_realizer.engines.animation.leaning import HandGoal
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 
@@ -141,6 +142,7 @@ class MotionUnit(ABC):
         entrance: time in which the joints go over to it at its start, s.
         fade_in: duration of its fade-in if it joins late, s; None if it appears at once.
         joined: time at which it joined late, s; None if it started in time.
+        hands: where it brings wrists, as last shown; the trunk leans where their arms do not reach.
         jumped: whether its goal jumped in the last pose, for a reason of its own.
         steps: whether the feet may turn the figure for it (`step_turn`).
         fault: that occurred while playing; None if there is none.
@@ -167,6 +169,7 @@ class MotionUnit(ABC):
     predictability: Predictability = Predictability.NEVER
     entrance: float = CARRIED
     fade_in: float | None = None
+    hands: tuple[HandGoal, ...] = ()
     jumped: bool = False
     steps: bool = False
     joined: GlobalTime | None = None

@@ -22,7 +22,14 @@ from reactive_realizer.embodiment.quaternion import (
 from reactive_realizer.embodiment.vector import Vec3, scale, subtract
 from reactive_realizer.engines.animation.kinematics import KinematicState
 from reactive_realizer.engines.animation.motion_unit import Moment, Resource
-from reactive_realizer.engines.animation.motions.rotation_curves import CURVES, Curve, CurveEnd, HermiteCurve, slerped
+from reactive_realizer.engines.animation.motions.rotation_curves import (
+    CURVES,
+    Curve,
+    CurveEnd,
+    GrowingArcs,
+    HermiteCurve,
+    slerped,
+)
 from reactive_realizer.engines.animation.motions.transition import TransitionMotionUnit
 
 X: Vec3 = (1.0, 0.0, 0.0)
@@ -125,3 +132,17 @@ def test_a_transition_leads_from_one_motion_to_another(skeleton: Skeleton) -> No
     assert (elbow(2.0) - elbow(1.999)) / 0.001 == pytest.approx(-0.8, abs=0.01)
     assert (elbow(0.002) - 2 * elbow(0.001) + elbow(0.0)) / 0.001**2 == pytest.approx(2.0, abs=0.05)
     assert (elbow(2.0) - 2 * elbow(1.999) + elbow(1.998)) / 0.001**2 == pytest.approx(0.0, abs=0.05)
+
+
+def test_an_arc_to_a_goal_that_moves_grows_beyond_half_a_turn_and_does_not_jump() -> None:
+    arcs, before = GrowingArcs(), IDENTITY
+    for degrees in range(0, 300, 5):
+        here = arcs("r_shoulder", IDENTITY, from_axis_angle(X, math.radians(degrees)), 0.5)
+        assert apart(before, here) < math.radians(3.0)
+        before = here
+    assert apart(before, from_axis_angle(X, math.radians(147.5))) < 1e-6
+
+
+def test_an_arc_is_the_shorter_one_at_first() -> None:
+    there = from_axis_angle(X, math.radians(200.0))
+    assert apart(GrowingArcs()("r_shoulder", IDENTITY, there, 0.5), from_axis_angle(X, math.radians(-80.0))) < 1e-6

@@ -66,10 +66,12 @@ class SolvedArm(NamedTuple):
     Attributes:
         rotations: of shoulder, elbow and wrist, local to their parents.
         missing: distance of the hand from its place, m.
+        place: to which the wrist goes, in the figure's frame, m; None if only the wrist turns.
     """
 
     rotations: dict[str, Quat]
     missing: float
+    place: Vec3 | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +112,7 @@ class ArmGoals:
         solved, hand = self._reaching(target, body, wrist)
         for _ in range(_ROUNDS if length(self.tip) > 0.0 else 0):
             solved, hand = self._reaching(subtract(target, rotate(hand, self.tip)), body, wrist)
-        return SolvedArm(dict(natural_arm(self.side, solved.rotations, body.skeleton)), solved.missing)
+        return solved._replace(rotations=dict(natural_arm(self.side, solved.rotations, body.skeleton)))
 
     def _reaching(self, goal: Vec3, body: Body, wrist: Quat) -> tuple[SolvedArm, Quat]:
         """Return the rotations that bring the wrist to a goal in the figure's frame, and that of the hand there."""
@@ -120,7 +122,8 @@ class ArmGoals:
         upper, lower = limb.solve(way, self.swivel if self.side == "r" else -self.swivel)
         forearm = multiply(above, multiply(upper, lower))
         turned = self._wrist(forearm, wrist)
-        return SolvedArm({first: upper, elbow: lower, end: turned}, limb.missed(way)), multiply(forearm, turned)
+        solved = SolvedArm({first: upper, elbow: lower, end: turned}, limb.missed(way), goal)
+        return solved, multiply(forearm, turned)
 
     def _wrist(self, forearm: Quat, wrist: Quat) -> Quat:
         """Return the rotation of the wrist that gives the hand its directions.

@@ -9,6 +9,7 @@ from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals
 from reactive_realizer.engines.animation.key_poses.head_pose import HeadPose
+from reactive_realizer.engines.animation.leaning import HandGoal
 
 
 class Missed(NamedTuple):
@@ -31,10 +32,12 @@ class SolvedRotations(NamedTuple):
     Attributes:
         rotations: of its joints, local to their parents.
         missed: a goal that is out of reach; None if there is none.
+        hands: where wrists are to be.
     """
 
     rotations: Mapping[str, Quat]
     missed: Missed | None = None
+    hands: tuple[HandGoal, ...] = ()
 
 
 class JointPose(Protocol):
@@ -74,7 +77,8 @@ class SeveralPoses:
         """Return the rotations of its joints; of several goals out of reach, the first is reported."""
         solved = [pose.solve(body, rest) for pose in self.poses]
         rotations = {joint: turn for each in solved for joint, turn in each.rotations.items()}
-        return SolvedRotations(rotations, next((each.missed for each in solved if each.missed is not None), None))
+        missed = next((each.missed for each in solved if each.missed is not None), None)
+        return SolvedRotations(rotations, missed, tuple(hand for each in solved for hand in each.hands))
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,14 +113,16 @@ class SolvedPose:
             rest: rotations of its joints without goals.
         """
         rotations = {joint: slerp(rest[joint], goal, self.influence) for joint, goal in self.stored.items()}
-        missed = None
+        missed, hands = None, tuple[HandGoal, ...]()
         if self.head is not None:
             rotations |= self.head.solve(body, rest)
         if self.arm is not None:
             end = f"{self.arm.side}_wrist"
             solved = self.arm.solve(body, rotations.get(end, rest[end]))
             rotations |= {joint: solved.rotations[joint] for joint in self.arm.joints}
+            if solved.place is not None:
+                hands = (HandGoal(self.arm.side, solved.place),)
             if solved.missing > 0.0:
                 reach = Arm.of(body.skeleton, self.arm.side).reach
                 missed = Missed(end, solved.missing, solved.missing / reach)
-        return SolvedRotations(rotations, missed)
+        return SolvedRotations(rotations, missed, hands)

@@ -1,7 +1,7 @@
 """Key poses as motions: a part of the body goes from one state to the next."""
 
 from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, partial
 from itertools import zip_longest
 from typing import NamedTuple
@@ -14,12 +14,14 @@ from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import HEAD, SIDES, TRUNK
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, slerp
+from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGoals, NotReachable, WrongElement
-from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, Missed
+from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, SolvedRotations
+from reactive_realizer.engines.animation.leaning import HandGoal, Reached
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_unit import (
     Moment,
@@ -29,6 +31,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     ordered,
 )
 from reactive_realizer.engines.animation.motions.pose_goals import PoseGoals
+from reactive_realizer.engines.animation.motions.rotation_curves import GrowingArcs
 from reactive_realizer.engines.animation.procedural.effector_track import carried_as_shown
 from reactive_realizer.engines.animation.shortest import Profile
 from reactive_realizer.engines.animation.tcb import Neighbors, Side, Tcb, rotation_on_way
@@ -43,8 +46,8 @@ _SHORTEST = 0.001
 """Duration of a motion whose only pose is reached at once, s."""
 
 
-Poses = Callable[[int], Mapping[str, Quat]]
-"""Returns the rotations at a key pose by its number; where the motion started for -1."""
+Poses = Callable[[int], SolvedRotations]
+"""Returns the state at a key pose by its number; where the motion started for -1."""
 
 
 class Key(NamedTuple):
@@ -109,7 +112,8 @@ class KeyPosesMotionUnit(MotionUnit):
         self._begins = [key.begins for key in keys]
         self._fade_in, self._fade_out = fades
         self._rest = rest
-        self._first: Mapping[str, Quat] = {joint: rest.rotation(joint) for joint in self.joints}
+        self._first = SolvedRotations({joint: rest.rotation(joint) for joint in self.joints})
+        self._arcs = [GrowingArcs() for _ in keys]
         self._relaxes = max(keys[-1].left, _SHORTEST)
         self.preferred_duration = self._relaxes + self._fade_out
         named = {sync: min(time, self._relaxes) / self.preferred_duration for sync, time in points.items()}
@@ -118,34 +122,37 @@ class KeyPosesMotionUnit(MotionUnit):
 
     def start(self, body: Body) -> None:
         """Start from the current body."""
-        self._first = {joint: body.rotation(joint) for joint in self.joints}
+        self._first = SolvedRotations({joint: body.rotation(joint) for joint in self.joints})
+
+        self._arcs = [GrowingArcs() for _ in self._keys]
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the pose between two key poses, or at one of them."""
         time = moment.phase * self.preferred_duration
         body = carried_as_shown(moment.body, moment.body, moment.shown) if moment.shown else moment.body
-        number = max(0, bisect_right(self._begins, time) - 1)
+        number, weight = max(0, bisect_right(self._begins, time) - 1), self._weight(time)
         key = self._keys[number]
         passed = share(time, key.begins, key.reached)
         done = key.profile(passed)
-        if key.way is not None and passed < 1.0:
-            return MotionPose(self._rotations(key, key.way(done), body, moment), self._weight(time))
-        there: Mapping[str, Quat] = self._rotations(key, key.pose, body, moment)
-        if passed < 1.0:
-            at = cache(lambda number: self._at(number, body, moment))
-            there = self._on_way(number, done, passed, at, moment.body)
-        return MotionPose(there, self._weight(time))
+        at = cache(lambda number: self._at(number, body, moment))
+        if moment.shown is not None:
+            self.hands = tuple(_hands(at(number - 1), at(number), passed, weight))
+        if passed == 1.0:
+            return MotionPose(at(number).rotations, weight)
+        if key.way is not None:
+            return MotionPose(self._solved(key, key.way(done), body, moment).rotations, weight)
+        return MotionPose(self._on_way(number, done, passed, at, moment.body), weight)
 
-    def _at(self, number: int, body: Body, moment: Moment) -> Mapping[str, Quat]:
-        """Return the rotations at a key pose; where the motion started for -1."""
+    def _at(self, number: int, body: Body, moment: Moment) -> SolvedRotations:
+        """Return the state at a key pose; where the motion started for -1."""
         if number < 0:
             return self._first
         key = self._keys[number]
-        return self._rotations(key, key.pose, body, moment)
+        return self._solved(key, key.pose, body, moment)
 
     def _on_way(self, number: int, done: float, time: float, at: Poses, body: Body) -> Mapping[str, Quat]:
         """Return the rotations on the way to a key pose, after a share of its time; power changes that of a hand."""
-        key, here, there = self._keys[number], at(number - 1), at(number)
+        key, here, there = self._keys[number], at(number - 1).rotations, at(number).rotations
         leaving, arriving = self._velocities(number - 1, at, "leaving"), self._velocities(number, at, "arriving")
         if leaving or arriving:
             turned = {
@@ -153,7 +160,8 @@ class KeyPosesMotionUnit(MotionUnit):
                 for joint, goal in there.items()
             }
         else:
-            turned = {joint: slerp(here[joint], goal, done) for joint, goal in there.items()}
+            arcs = self._arcs[number]
+            turned = {joint: arcs(joint, here[joint], goal, done) for joint, goal in there.items()}
         if key.power == 0.0 or key.tcb is not None:
             return turned
         sides = (side for side in SIDES if turned.keys() >= {f"{side}_shoulder", f"{side}_elbow"})
@@ -168,30 +176,42 @@ class KeyPosesMotionUnit(MotionUnit):
         tcb = self._keys[number].tcb if number >= 0 else None
         if tcb is None:
             return {}
-        before, here, after = (at(each) for each in (number - 1, number, number + 1))
+        before, here, after = (at(each).rotations for each in (number - 1, number, number + 1))
         first, second = (key.reached - key.begins for key in self._keys[number : number + 2])
         return {
             joint: Neighbors(before[joint], turn, after[joint], (first, second)).tangent(tcb, side)
             for joint, turn in here.items()
         }
 
-    def _rotations(self, key: Key, pose: JointPose, body: Body, moment: Moment) -> dict[str, Quat]:
+    def _solved(self, key: Key, pose: JointPose, body: Body, moment: Moment) -> SolvedRotations:
         """Return the rotations of all joints in a pose on the way to a key pose."""
         rest = {joint: self._rest.rotation(joint) for joint in self.joints}
         solved = pose.solve(body, rest)
         if solved.missed is not None and solved.missed.share > _STRETCHED and moment.shown is not None:
-            self.fault = self.fault or self._unreachable(key, solved.missed)
-        return {**rest, **solved.rotations}
+            self.fault = self.fault or self._unreachable(key, solved, moment.body)
+        return solved._replace(rotations={**rest, **solved.rotations})
 
-    def _unreachable(self, key: Key, missed: Missed) -> Fault:
-        phase = key.reached / self.preferred_duration
-        fault = NotReachable(joint=missed.joint, animation=self._name, phase=phase, distance=missed.distance)
-        return fault.located(key.location.line, key.location.column)
+    def _unreachable(self, key: Key, solved: SolvedRotations, upright: Body) -> Fault | None:
+        """Return the fault of a hand that its place is far from even if the trunk leans; None if it is not."""
+        for side, place, _ in solved.hands:
+            missing = Reached.of(upright, side, place).missing
+            if missing > _STRETCHED * Arm.of(upright.skeleton, side).reach:
+                phase = key.reached / self.preferred_duration
+                fault = NotReachable(joint=f"{side}_wrist", animation=self._name, phase=phase, distance=missing)
+                return fault.located(key.location.line, key.location.column)
+        return None
 
     def _weight(self, time: float) -> float:
         come = minimum_jerk(share(time, 0.0, self._fade_in))
         gone = minimum_jerk(share(time, self._relaxes, self.preferred_duration)) if time > self._relaxes else 0.0
         return come * (1.0 - gone)
+
+
+def _hands(here: SolvedRotations, there: SolvedRotations, passed: float, weight: float) -> Iterator[HandGoal]:
+    """Yield where wrists are to be on the way from one pose to another, after a share of its time."""
+    done = minimum_jerk(passed)
+    for solved, part in ((here, 1.0 - done), (there, done)):
+        yield from (hand._replace(share=part * weight) for hand in solved.hands if part > 0.0)
 
 
 def _kind(joints: frozenset[str], *, whole_body: bool) -> LayerKind:

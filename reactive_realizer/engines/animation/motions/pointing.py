@@ -9,11 +9,12 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.place import Place, between_headings
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, rotate, slerp
+from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, rotate
 from reactive_realizer.embodiment.vector import UP, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
-from reactive_realizer.engines.animation.easing import share
+from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NotTouched, TargetLost
+from reactive_realizer.engines.animation.leaning import HandGoal, leant
 from reactive_realizer.engines.animation.motion_maker import TargetLocator
 from reactive_realizer.engines.animation.motion_unit import (
     EXPRESSIVITY_RANGES,
@@ -31,6 +32,7 @@ from reactive_realizer.engines.animation.motions.reaching import (
     shortest_phases,
     sigmoid_profile,
 )
+from reactive_realizer.engines.animation.motions.rotation_curves import GrowingArcs
 from reactive_realizer.engines.animation.motions.touching_arm import TouchingArm
 from reactive_realizer.engines.animation.walking.manner import stepping_time
 from reactive_realizer.errors import Fault
@@ -114,7 +116,9 @@ class PointingMotionUnit(MotionUnit):
         self.resources = arms_used(self.joints)
         self._arms, self._target, self._figure = arms, target, figure
         self._begin = {joint: rest.rotation(joint) for joint in self.joints}
+        self._arcs = GrowingArcs()
         self._name, self._aimed = name, dict[str, Quat]()
+        self._wrists: list[tuple[str, Vec3 | None]] = []
         self._profile = sigmoid_profile(self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
         self._rest = rest
         durations = self.durations(self._expressivity())
@@ -137,7 +141,13 @@ class PointingMotionUnit(MotionUnit):
         return self._way(body, self._expressivity())
 
     def _way(self, body: Body, expressivity: Expressivity) -> PhaseDuration:
-        way = reach(body, body.posed(_turns(self._aim(body, expressivity))), self.joints, self._profile)
+        aims = self._aim(body, expressivity)
+        there = leant(
+            body, [HandGoal(arm.side, aim.wrist) for arm, aim in zip(self._arms, aims, strict=True) if aim.wrist]
+        )
+        if there is not body:
+            aims = self._aim(there, expressivity)
+        way = reach(body, there.posed(_turns(aims)), self.joints, self._profile)
         if expressivity != NEUTRAL:
             preferred = expressivity.movement(way.preferred, way.shortest, expressivity.speed)
             way = PhaseDuration(preferred, way.shortest)
@@ -154,6 +164,7 @@ class PointingMotionUnit(MotionUnit):
         """Start from the current pose of the arms."""
         self._plays = True
         self._begin = {joint: body.rotation(joint) for joint in self.joints}
+        self._arcs = GrowingArcs()
         if self._facing is not None:
             self._facing.start()
 
@@ -163,14 +174,22 @@ class PointingMotionUnit(MotionUnit):
         if (phase <= keys["relax"] and not self._keeps) or not self._aimed:
             aims = self._aim(self._figure(moment.time), expressivity, moment.time)
             self._aimed = _turns(aims)
+            self._wrists = [(arm.side, aim.wrist) for arm, aim in zip(self._arms, aims, strict=True)]
             if phase >= keys["ready"] and self._plays:
                 self.fault = self.fault or self._missed(aims)
+        prepared, gone = share(phase, 0.0, keys["ready"]), self._profile(share(phase, keys["relax"], 1.0))
+        if moment.shown is not None:
+            self.hands = self._hands(minimum_jerk(prepared) * (1.0 - gone))
         if phase < keys["ready"]:
             self._before = phase
-            return MotionPose(self._prepared(share(phase, 0.0, keys["ready"]), moment.body, expressivity))
+            return MotionPose(self._prepared(prepared, moment.body, expressivity))
         if self._plays:  # before, a pose is what the next motion is planned from
             self._arrive()
-        return MotionPose(self._aimed, 1.0 - self._profile(share(phase, keys["relax"], 1.0)))
+        return MotionPose(self._aimed, 1.0 - gone)
+
+    def _hands(self, part: float) -> tuple[HandGoal, ...]:
+        """Return where the wrists are to be, for a share of the lean of the trunk."""
+        return tuple(HandGoal(side, place, part) for side, place in self._wrists if place is not None)
 
     def _arrive(self) -> None:
         """Note that the hands have arrived, if they have; a motion that is broken off on the way jumps to its relax."""
@@ -183,7 +202,7 @@ class PointingMotionUnit(MotionUnit):
     def _prepared(self, time: float, body: Body, expressivity: Expressivity) -> Mapping[str, Quat]:
         """Return the pose after a share of the time of the preparation."""
         done = self._profile(time)
-        turned = {joint: slerp(self._begin[joint], goal, done) for joint, goal in self._aimed.items()}
+        turned = {joint: self._arcs(joint, self._begin[joint], goal, done) for joint, goal in self._aimed.items()}
         if expressivity.power == 0.0:
             return turned
         arms = [CarriedArm.of(arm.skeleton, arm.side) for arm in self._arms]

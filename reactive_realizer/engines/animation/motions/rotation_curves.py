@@ -5,7 +5,15 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from reactive_realizer.embodiment.quaternion import Quat, difference, from_rotation_vector, multiply, power, slerp
+from reactive_realizer.embodiment.quaternion import (
+    IDENTITY,
+    Quat,
+    difference,
+    from_rotation_vector,
+    multiply,
+    power,
+    slerp,
+)
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale
 from reactive_realizer.engines.animation.easing import minimum_jerk
 
@@ -106,3 +114,26 @@ CURVES: Mapping[str, CurveKind] = MappingProxyType(
     }
 )
 """Kinds of curves by class name: those of the thesis (4.2.4), and AsapRealizer's names for them."""
+
+
+class GrowingArcs:
+    """Arcs from rotations of joints to goals that move: the shorter ones at first.
+
+    An arc that has grown to more than half a turn goes on growing; the shorter one would jump to the other side.
+    """
+
+    def __init__(self) -> None:
+        self._turns: dict[str, Quat] = {}
+
+    def __call__(self, joint: str, start: Quat, goal: Quat, done: float) -> Quat:
+        """Return the rotation of a joint after a share of its arc."""
+        turn = difference(start, goal)
+        last = self._turns.get(joint, IDENTITY)
+        if turn[0] * last[0] + turn[1] * last[1] + turn[2] * last[2] + turn[3] * last[3] < 0.0:
+            turn = (-turn[0], -turn[1], -turn[2], -turn[3])
+        self._turns[joint] = turn
+        if turn[0] >= 0.0:
+            return slerp(start, goal, done)
+        sine = math.sqrt(turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3])
+        angle = 2.0 * math.atan2(sine, turn[0])
+        return multiply(start, from_rotation_vector(scale((turn[1], turn[2], turn[3]), done * angle / sine)))

@@ -66,7 +66,7 @@ class TouchingArm:
             hand = add(hand, scale(turned, _DAMPING))
             solved = self._with_wrist_at(subtract(goal, hand), body)
         fault = f"it is {solved.missing:.2f} m too far away" if solved.missing > _NEAR else None
-        return ArmPose({**solved.rotations, **self._fingers}, fault)
+        return ArmPose({**solved.rotations, **self._fingers}, fault, solved.place)
 
     def _with_wrist_at(self, place: Vec3, body: Body) -> SolvedArm:
         return ArmGoals(self.side, place).solve(body, IDENTITY)
