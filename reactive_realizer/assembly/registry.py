@@ -10,7 +10,7 @@ from reactive_realizer.engine.faults import TwoPlugins
 from reactive_realizer.errors import RealizerError
 
 GROUP = "reactive_realizer"
-_GROUPS = ("engines", "tts", "anticipators", "strategies", "trajectories", "functions", "dialects")
+_GROUPS = ("engines", "tts", "anticipators", "strategies", "trajectories", "functions", "motions", "dialects")
 
 
 def load(group: str, name: str) -> Any:

@@ -162,6 +162,7 @@ def _character(
         mouth,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},
         functions={name: load("functions", name) for name in names("functions")},
+        motions={name: load("motions", name) for name in names("motions")},
         time=time,
         idle=spec.idle,
         blink_rate=spec.blink_rate,

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 from reactive_realizer.bml.expressivity import NEUTRAL, Expressivity
 from reactive_realizer.clock.units import GlobalTime
@@ -45,6 +45,8 @@ class EngineContext:
         time: the time of the present tick, s, for cells that change with time.
         trajectories: for changes of parameters, by name.
         functions: pure functions that formulas of animations may call besides the built-in ones, by name.
+        motions: makers of motions of plug-ins, by the name of their kind in gesture bindings; each is called with the
+            context of the makers of the animation engine.
         idle: degree of its idle animation, 0 to 1; 0 for none.
         blink_rate: blinks per minute of idle animation; None for the usual rate.
         limits: on what the engines read.
@@ -65,6 +67,7 @@ class EngineContext:
     time: Source[GlobalTime] = field(default_factory=lambda: Source(Graph(), "time", GlobalTime(0.0)))
     trajectories: Mapping[str, TrajectoryFunction] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., float]] = field(default_factory=dict)
+    motions: Mapping[str, Callable[[Any], Any]] = field(default_factory=dict)
     idle: float = 1.0
     blink_rate: float | None = None
     limits: Limits = field(default_factory=Limits)

@@ -49,6 +49,26 @@ async def test_the_block_on_the_page_uses_the_engine_the_voice_and_the_trajector
 
 
 @pytest.mark.usefixtures("installed")
+async def test_the_motion_on_the_page_plays_an_element_of_its_own_and_its_degrees_may_change() -> None:
+    async with open_pilot(SceneOptions(PLUGIN / "swaying.toml", "text", (PLUGIN,))) as pilot:
+        pilot.watch()
+        pilot.block(
+            "b",
+            '<sway xmlns="urn:example:wink" id="s" start="0.5" degrees="10"/><head id="h" lexeme="NOD" start="s:left"/>'
+            '<bmla:parametervaluechange id="c" target="s" paramId="degrees" start="s:left + 0.5" end="s:left + 0.6">'
+            '<bmla:trajectory type="linear" targetValue="0"/></bmla:parametervaluechange>',
+        )
+        await pilot.advance(4)
+        told, head = pilot.feedback, pilot.path("skullbase")
+        assert told.warnings == []
+        assert told.time("b:h:start") == told.time("b:s:left") == pytest.approx(1.0)
+        assert told.time("b:s:end") == pytest.approx(2.5)
+        left, right = (head[round(50 * told.time(f"b:s:{point}")), 0] for point in ("left", "right"))
+        assert left > 0.05
+        assert abs(right) < 0.01
+
+
+@pytest.mark.usefixtures("installed")
 async def test_the_strategy_stretches_nothing_and_reports_dropped_constraints() -> None:
     async with open_pilot(SceneOptions(voice="text", strategy="earliest")) as pilot:
         pilot.block("b", '<gesture id="g" lexeme="BEAT" start="1" end="9"/><head id="n" lexeme="NOD" start="g:end"/>')

@@ -152,7 +152,7 @@ class AnimationEngine(DefaultEngine):
             self._expected_place,
             context.expressivity,
         )
-        self._library = MotionLibrary(binding, maker_context)
+        self._library = MotionLibrary(binding, maker_context, context.motions)
         rate = USUAL_RATE if context.blink_rate is None else context.blink_rate
         self._idle = Idle(Random(context.seed), rate, context.idle) if context.idle else None
         self._late_hands = LateHands(context.humanoid)

@@ -12,6 +12,7 @@ from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import REACH, Head
 from reactive_realizer.bml.vocabulary import Influence
+from reactive_realizer.engine.faults import TwoPlugins
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates
 from reactive_realizer.engines.animation.faults import NoMotionFor, NoUnit
 from reactive_realizer.engines.animation.motion_maker import (
@@ -49,6 +50,8 @@ from reactive_realizer.engines.animation.motions.transition import TransitionMak
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.parameter import spelled
 
+_SEQUENCE = "Sequence"
+
 MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
     {
         "ProcAnimation": ProceduralMotionMaker,
@@ -78,10 +81,20 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
 """Id of a kind of motion -> creates its maker for a figure."""
 
 
-def makers_of(context: MakerContext) -> Mapping[str, MotionMaker]:
-    """Return the makers of a figure by the id of their kind. Sequences are made of the motions of the others."""
-    makers: dict[str, MotionMaker] = {kind: maker(context) for kind, maker in MAKERS.items()}
-    makers["Sequence"] = SequenceMaker(context, makers)
+PluginMakers = Mapping[str, Callable[[MakerContext], MotionMaker]]
+"""Those of plug-ins."""
+
+
+def makers_of(context: MakerContext, plugins: PluginMakers) -> Mapping[str, MotionMaker]:
+    """Return the makers of a figure by the id of their kind. Sequences are made of the motions of the others.
+
+    Raises:
+        RealizerError: "two-plugins": a plug-in has the name of a kind of motion of the package.
+    """
+    for kind in plugins.keys() & {*MAKERS, _SEQUENCE}:
+        raise RealizerError(TwoPlugins(name=kind, group="motions", known=("the package", "a plug-in")))
+    makers: dict[str, MotionMaker] = {kind: maker(context) for kind, maker in {**MAKERS, **plugins}.items()}
+    makers[_SEQUENCE] = SequenceMaker(context, makers)
     return makers
 
 
@@ -98,9 +111,9 @@ class MotionLibrary:
 
     extensions = frozenset({DYNAMIC, REACH})
 
-    def __init__(self, binding: GestureBinding, context: MakerContext) -> None:
+    def __init__(self, binding: GestureBinding, context: MakerContext, plugins: PluginMakers) -> None:
         self.binding = binding
-        self._makers = makers_of(context)
+        self._makers = makers_of(context, plugins)
         makers: Mapping[str, object] = self._makers
         self._preloading = {unit: maker for unit, maker in makers.items() if isinstance(maker, PreloadingMaker)}
         self._refreshing = [maker for maker in makers.values() if isinstance(maker, RefreshingMaker)]
