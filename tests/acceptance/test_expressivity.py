@@ -240,6 +240,83 @@ async def test_a_change_of_extent_makes_a_playing_gesture_larger_and_leaves_its_
     assert pilot.feedback.warnings == []
 
 
+async def with_extent(behavior: str, value: float, *, at: float, kind: str = "instant") -> Performance:
+    """How a behavior is performed whose temporal extent changes at a time, without a warning."""
+    extent = change(
+        "p", f'start="{at}"', target="g", parameter="temporalExtent", type=kind, targetValue=value, initialValue=0
+    )
+    return await play(behavior + extent, 7.0)
+
+
+@pytest.mark.parametrize("value", [-1.0, 0.5, 1.0])
+@pytest.mark.parametrize("kind", ["instant", "linear"])
+async def test_a_change_of_temporal_extent_changes_the_durations_of_the_phases_ahead(value: float, kind: str) -> None:
+    usual, planned = [await play(gesture(syncs='start="0.2"', temporalExtent=each), 7.0) for each in (0, value)]
+    early = 0.5 if kind == "instant" else 0.1
+    changed = await with_extent(gesture(syncs='start="0.2"'), value, at=early, kind=kind)
+    later = slice(STROKE, None) if kind == "instant" else slice(RETURN, None)  # a linear change takes half a second
+    assert changed.durations[later] == pytest.approx(planned.durations[later], abs=0.003)
+    preparations = sorted((usual.durations[PREPARATION], planned.durations[PREPARATION]))
+    assert preparations[0] < changed.durations[PREPARATION] < preparations[1]
+    assert accelerations(changed.hand).max() < 60.0
+
+
+async def test_the_rest_of_a_phase_takes_as_much_longer_as_the_whole_phase_would() -> None:
+    usual, slow = [await play(pointing(syncs='start="0.2"', temporalExtent=each), 7.0) for each in (0, 1)]
+    changed = await with_extent(pointing(syncs='start="0.2"'), 1, at=0.4)
+    done, whole = 0.2 / usual.durations[PREPARATION], slow.durations[PREPARATION]
+    assert changed.durations[PREPARATION] == pytest.approx(0.2 + (1.0 - done) * whole, abs=0.02)
+    assert changed.durations[RETRACTION] == pytest.approx(slow.durations[RETRACTION], abs=0.003)
+
+
+@pytest.mark.parametrize(
+    ("syncs", "stays", "moves"),
+    [
+        ('start="0.2" stroke="2"', ("ready", "strokeStart", "stroke"), ("strokeEnd", "relax", "end")),
+        ('start="0.2" end="4"', ("ready", "strokeStart", "stroke", "strokeEnd", "relax", "end"), ()),
+        ('start="0.2" relax="3"', ("ready", "strokeStart", "stroke", "strokeEnd", "relax"), ("end",)),
+    ],
+)
+async def test_a_change_of_temporal_extent_leaves_points_that_are_tied_and_what_is_before_them(
+    pilot: RealizerPilot, syncs: str, stays: tuple[str, ...], moves: tuple[str, ...]
+) -> None:
+    times = []
+    for name in ("a", "b"):
+        pilot.block(name, gesture(syncs=syncs))
+        begun = pilot.now
+        await pilot.advance(0.6)
+        if name == "b":
+            pilot.block("c", change("p", 'start="0"', target="b:g", parameter="temporalExtent", targetValue=1))
+        await pilot.advance(7)
+        times.append({sync: pilot.feedback.time(f"{name}:g:{sync}") - begun for sync in (*stays, *moves)})
+    assert [times[1][sync] for sync in stays] == pytest.approx([times[0][sync] for sync in stays], abs=0.002)
+    assert all(times[1][sync] > times[0][sync] + 0.1 for sync in moves)
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_behavior_that_is_tied_to_a_gesture_keeps_its_point_when_the_extent_changes(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.block("b", gesture(syncs='start="0.2"') + '<head id="n" lexeme="NOD" start="g:relax"/>')
+    await pilot.advance(0.5)
+    planned = pilot.feedback.predicted("b:g:relax")
+    pilot.block("c", change("p", 'start="0"', target="b:g", parameter="temporalExtent", targetValue=1))
+    await pilot.advance(7)
+    assert pilot.feedback.time("b:g:relax") == pytest.approx(planned)
+    assert pilot.feedback.time("b:n:start") == pytest.approx(planned)
+
+
+async def test_an_extent_that_changes_before_a_gesture_begins_counts_from_its_start(pilot: RealizerPilot) -> None:
+    slow = await play(gesture(syncs='start="0.2"', temporalExtent=1), 7.0)
+    pilot.block("b", gesture(syncs='start="1"'))
+    await pilot.advance(0.2)
+    pilot.block("c", change("p", 'start="0"', target="b:g", parameter="temporalExtent", targetValue=1))
+    await pilot.advance(8)
+    times = [pilot.feedback.time(f"b:g:{point}") for point in ("start", "ready", "relax", "end")]
+    expected = [slow.points[point] - slow.points["start"] for point in ("start", "ready", "relax", "end")]
+    assert [time - times[0] for time in times] == pytest.approx(expected, abs=0.01)
+
+
 async def test_a_hand_follows_changes_ten_times_a_second_within_its_limits(pilot: RealizerPilot) -> None:
     pilot.watch()
     pilot.block("b", gesture("CONDUCT", syncs='start="0.2" end="5"'))

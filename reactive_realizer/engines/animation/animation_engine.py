@@ -413,8 +413,9 @@ class AnimationEngine(DefaultEngine):
         return bool(self._controlling(playing) or self._walks()) or any(unit.motion.steps for unit in playing)
 
     def requests(self, tick: Tick) -> tuple[MovePoints, ...]:
-        """Return the moves of the ends of locomotion: the figure arrives earlier or later than expected."""
-        return tuple(move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
+        """Return the moves of points: locomotion arrives at another time, or a temporal extent has changed."""
+        arrivals = (move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
+        return (*arrivals, *(move for unit in self._playing() for move in unit.moves(tick.time)))
 
     def _destination(self, now: GlobalTime, playing: Sequence[AnimationUnit]) -> Goal | None:
         """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""

@@ -14,11 +14,13 @@ from reactive_realizer.clock.units import RESOLUTION, GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.quaternion import angle, difference
+from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates, select
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.fade_out import LOWEST
 from reactive_realizer.engines.animation.kinematics import KinematicState
+from reactive_realizer.engines.animation.live_extent import TEMPORAL_EXTENT, LiveExtent
 from reactive_realizer.engines.animation.motion_unit import (
     Moment,
     MotionUnit,
@@ -163,6 +165,7 @@ class AnimationUnit(PlanUnit):
         self._clock = PhaseClock(keys)
         self._names = candidate.names
         cells = {own: self.parameters[name].cell for name, own in candidate.names.items() if name in self.parameters}
+        self._extent = LiveExtent(motion, cells.get(TEMPORAL_EXTENT))
         motion.parameters = ParameterValues(motion.parameters, cells)
         self._cells = tuple(cells.values())
 
@@ -256,6 +259,7 @@ class AnimationUnit(PlanUnit):
     def on_start(self, time: GlobalTime) -> None:
         """Start the motion from the current body. It is extrapolated to the time, unless the motion is additive."""
         motion = self.motion
+        self._extent.listen(lambda: self.wake())
         self._set_shortest(time)
         added = motion.kind is LayerKind.ADDITIVE
         motion.start(self._context.body() if added else self._context.state_at(time).body)
@@ -285,6 +289,11 @@ class AnimationUnit(PlanUnit):
     def on_finish(self, time: GlobalTime) -> None:
         """Release the joints."""
         self._context.released(self, time)
+
+    def moves(self, now: GlobalTime) -> Iterator[MovePoints]:
+        """Yield the move of its points ahead, if its temporal extent has changed."""
+        if self.begun and not self.ends_early and (times := self._extent.times(self.points, self.keys, now)):
+            yield MovePoints(self, times, now)
 
     def layer(self, now: GlobalTime) -> Layer:
         """Return the layer of the motion now.

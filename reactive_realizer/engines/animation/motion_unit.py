@@ -198,6 +198,18 @@ class MotionUnit(ABC):
         """Return the duration of the first phase from a body; None if it does not depend on the body."""
         return None
 
+    def slowed(self, before: float, after: float) -> Mapping[str, float]:
+        """Return by how much phases are longer with another temporal extent, by the point at which each ends.
+
+        Args:
+            before: temporal extent, -1 to 1 (`Expressivity`).
+            after: another one.
+
+        Returns:
+            Factors; phases without one stay as they are.
+        """
+        return {}
+
     def copy(self) -> Self:
         """Return a copy of a motion that has not started. This avoids computing its durations again."""
         motion = object.__new__(type(self))

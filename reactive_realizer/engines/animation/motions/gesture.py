@@ -169,6 +169,25 @@ class GestureMotionUnit(MotionUnit):
             _way(reach(relaxed, self._rest, self.joints), expressivity),
         ]
 
+    def slowed(self, before: float, after: float) -> Mapping[str, float]:
+        """As `MotionUnit.slowed`: holds stay."""
+        if NAMES[1] not in self._expressive:
+            return {}
+        now = self._expressivity(tuple(self.parameters.values()))
+        first, second = (self._movements(now._replace(temporal_extent=extent)) for extent in (before, after))
+        return {point: second[point] / first[point] for point in first if first[point] > 0.0}
+
+    def _movements(self, expressivity: Expressivity) -> dict[str, float]:
+        """Return the durations of the movements with expressivity, s, by the point at which each ends."""
+        preparation, _, stroke, after, _, retraction = self._authored
+        movements = {
+            "ready": _way(preparation, expressivity),
+            "stroke": _moved(stroke, expressivity),
+            "strokeEnd": _moved(after, expressivity, rest=self._rest_before(expressivity)),
+            "end": _way(retraction, expressivity),
+        }
+        return {point: each.preferred for point, each in movements.items()}
+
     def _rest_before(self, expressivity: Expressivity) -> float:
         """Return how long the hands rest at the stroke before they move on, s."""
         return expressivity.rest if self._authored[3].preferred > 0.0 else 0.0

@@ -120,7 +120,7 @@ class PointingMotionUnit(MotionUnit):
         self._name, self._aimed = name, dict[str, Quat]()
         self._wrists: list[tuple[str, Vec3 | None]] = []
         self._profile = sigmoid_profile(self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
-        self._rest = rest
+        self._plain = self._reaching(rest, self._expressivity())
         durations = self.durations(self._expressivity())
         self.preferred_duration = sum(each.preferred for each in durations)
         self.key_positions = gesture_key_positions([each.preferred for each in durations])
@@ -133,21 +133,36 @@ class PointingMotionUnit(MotionUnit):
     def durations(self, expressivity: Expressivity) -> list[PhaseDuration]:
         """Return the durations of the six phases between the seven points, with expressivity."""
         still, hold = PhaseDuration(0.0), PhaseDuration(expressivity.pause(self.parameters[HOLD]))
-        way = self._way(self._rest, expressivity)
+        way = self._expressed(self._plain, expressivity)
         return [way, still, still, hold, still, way]
 
     def preparation(self, body: Body) -> PhaseDuration:
         """Return the duration of the preparation from a body."""
         return self._way(body, self._expressivity())
 
+    def slowed(self, before: float, after: float) -> Mapping[str, float]:
+        """As `MotionUnit.slowed`: the hold stays."""
+        now = self._expressivity()
+        first, second = (
+            self._expressed(self._plain, now._replace(temporal_extent=extent)).preferred for extent in (before, after)
+        )
+        return dict.fromkeys(("ready", "end"), second / first) if first > 0.0 else {}
+
     def _way(self, body: Body, expressivity: Expressivity) -> PhaseDuration:
+        return self._expressed(self._reaching(body, expressivity), expressivity)
+
+    def _reaching(self, body: Body, expressivity: Expressivity) -> PhaseDuration:
+        """Return the duration of the way to the target, without the durations of expressivity."""
         aims = self._aim(body, expressivity)
         there = leant(
             body, [HandGoal(arm.side, aim.wrist) for arm, aim in zip(self._arms, aims, strict=True) if aim.wrist]
         )
         if there is not body:
             aims = self._aim(there, expressivity)
-        way = reach(body, there.posed(_turns(aims)), self.joints, self._profile)
+        return reach(body, there.posed(_turns(aims)), self.joints, self._profile)
+
+    def _expressed(self, way: PhaseDuration, expressivity: Expressivity) -> PhaseDuration:
+        """Return the duration of the way with expressivity, and with the time of the feet."""
         if expressivity != NEUTRAL:
             preferred = expressivity.movement(way.preferred, way.shortest, expressivity.speed)
             way = PhaseDuration(preferred, way.shortest)
