@@ -12,7 +12,8 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.pose import ComposedBody, Layer, LayerKind, compose
 from reactive_realizer.embodiment.quaternion import angle, from_axis_angle
 from reactive_realizer.embodiment.vector import UP, Vec3
-from reactive_realizer.engines.animation.keyframe import bvh_reader
+from reactive_realizer.engines.animation.keyframe import capture_words
+from reactive_realizer.engines.animation.monotone_curve import MonotoneCurve
 from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, layer_of
 from reactive_realizer.engines.animation.motions.sequence import SequenceMotionUnit, SequencePart
 from reactive_realizer.planunit.parameter import Range
@@ -99,11 +100,10 @@ def test_a_part_fades_in_and_out_over_the_layers_below(
 def test_later_parts_lie_over_earlier_ones_by_their_weights(
     shown: Shown,
 ) -> None:
-    half = {"ease_in": 1.0}
     low, high = Turning(0.0, "skullbase"), Turning(1.6, "skullbase")
-    assert shown([SequencePart(low, 0.0, 1.0), SequencePart(high, 0.0, 1.0, **half)], 0.5) == pytest.approx(0.4)
+    assert shown([SequencePart(low, 0.0, 1.0), SequencePart(high, 0.0, 1.0, ease_in=1.0)], 0.5) == pytest.approx(0.4)
     # Three quarters of both, of which two thirds the upper one.
-    both = [SequencePart(low, 0.0, 1.0, **half), SequencePart(high, 0.0, 1.0, **half)]
+    both = [SequencePart(low, 0.0, 1.0, ease_in=1.0), SequencePart(high, 0.0, 1.0, ease_in=1.0)]
     assert shown(both, 0.5) == pytest.approx(0.5 * 0.8 + 0.25 * 0.0 + 0.25 * 0.4)
 
 
@@ -114,6 +114,21 @@ def test_joints_of_parts_are_weighted_separately(shown: Shown) -> None:
     ]
     assert shown(parts, 0.5, "skullbase") == pytest.approx(0.0)
     assert shown(parts, 0.5, "vc4") == pytest.approx(0.2)
+
+
+def test_a_part_has_the_phase_of_its_curve_and_may_go_back(shown: Shown) -> None:
+    there_and_back = MonotoneCurve([(0.0, 0.0), (1.0, 1.0), (3.0, 0.0)])
+    parts = [SequencePart(Turning(1.0, "skullbase"), 1.0, 4.0, phases=there_and_back)]
+    assert shown(parts, 1.5) == pytest.approx(there_and_back(0.5))
+    assert shown(parts, 2.0) == pytest.approx(1.0)
+    assert shown(parts, 4.0) == pytest.approx(0.0)
+    assert parts[0].time("stroke") == pytest.approx(1.0 + there_and_back.first_time(0.5))
+
+
+def test_a_part_has_the_weight_of_its_curve(shown: Shown) -> None:
+    parts = [SequencePart(Turning(0.0, "skullbase"), 1.0, 3.0, weights=MonotoneCurve([(0.0, 0.0), (1.0, 0.5)]))]
+    assert shown(parts, 1.5) == pytest.approx(0.75 * 0.4)
+    assert shown(parts, 2.5) == pytest.approx(0.5 * 0.4)
 
 
 def test_additive_parts_add_up(shown: Shown) -> None:
@@ -164,6 +179,7 @@ def test_a_sequence_has_only_its_named_points_in_order() -> None:
 # --- files
 
 LIFT = '<ProcAnimation prefDuration="2"><Rotation target="r_elbow" rotation="0 - sin(t*pi);0;0"/></ProcAnimation>'
+TURN = '<ProcAnimation prefDuration="2"><Rotation target="r_elbow" rotation="0 - t;0;0"/></ProcAnimation>'
 TWO = """
 <Sequence>
   <Motion id="low" type="ProcAnimation" file="lift.xml" start="0"/>
@@ -184,8 +200,13 @@ BINDING = """
 """
 
 
+def part(attributes: str, more: str = "") -> str:
+    return f'<Sequence><Motion id="p" type="ProcAnimation" file="lift.xml" start="0" {attributes}/>{more}</Sequence>'
+
+
 async def perform(folder: Path, sequence: str, seconds: float) -> RealizerPilot:
-    for name, text in {"gesturebinding.xml": BINDING, "lift.xml": LIFT, "two.xml": sequence}.items():
+    files = {"gesturebinding.xml": BINDING, "lift.xml": LIFT, "turn.xml": TURN, "two.xml": sequence}
+    for name, text in files.items():
         (folder / name).write_text(text, encoding="utf-8")
     async with open_pilot(SceneOptions(voice="text", assets=(folder,))) as pilot:
         pilot.watch()
@@ -218,6 +239,14 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
         ('<Sequence><Motion type="ProcAnimation" file="lift.xml" start="now"/></Sequence>', "is not a number"),
         ('<Sequence><Motion type="ProcAnimation" file="none.xml" start="0"/></Sequence>', "no asset named 'none.xml'"),
         ('<Sequence><Motion type="Sequence" file="two.xml" start="0"/></Sequence>', "contains itself"),
+        (part('phases="0 0"'), "phases='0 0': it must be two or more times"),
+        (part('phases="0 0, 0 1"'), "from 0 on and increasing"),
+        (part('phases="0 0, 1 2"'), "a value from 0 to 1"),
+        (part('phases="0 0, 1"'), "0 0, 0.5 1"),
+        (part('phases="0 0, 1 1" end="2"'), "phases replaces end"),
+        (part('weights="0 0, nan 1"'), "weights='0 0, nan 1': it must be"),
+        (part('weights="0 0, 1 1" easeIn="0.2"'), "weights replaces easeIn"),
+        (part('phases="0 0, 1 0.2"', '<KeyPosition id="x" ref="p:end"/>'), "no point 'p:end'"),
         (TWO.replace("low:end", "high:end"), "no point 'high:end'"),
         (TWO.replace('id="lifted"', 'id="end"'), "reserved for the whole"),
         (TWO.replace('id="lifted"', 'id="lifted up"'), "cannot name a sync point"),
@@ -230,6 +259,19 @@ async def test_an_invalid_sequence_file_is_refused_with_the_reason(sequence: str
     assert said in pilot.feedback.of("warningFeedback")[0].text
 
 
+async def test_a_part_of_a_file_plays_backward_and_its_points_are_where_it_is_then(tmp_path: Path) -> None:
+    forward = part('phases="0 0, 2 1"', '<KeyPosition id="end_of_it" ref="p:end"/>')
+    backward = part('phases="0 1, 2 0"', '<KeyPosition id="end_of_it" ref="p:end"/>')
+    paths = []
+    for name, text in (("forward", forward), ("backward", backward)):
+        (tmp_path / name).mkdir()
+        pilot = await perform(tmp_path / name, text.replace("lift.xml", "turn.xml"), 3)
+        assert pilot.feedback.warnings == []
+        paths.append(pilot.path("r_wrist"))
+        assert pilot.feedback.time("b:g:end_of_it") == (2.0 if name == "forward" else 0.0)
+    assert paths[0][25] == pytest.approx(paths[1][75], abs=0.01)
+
+
 async def test_a_capture_in_a_sequence_is_read_in_another_thread(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -239,7 +281,7 @@ async def test_a_capture_in_a_sequence_is_read_in_another_thread(
         reads.append(threading.current_thread())
         return path.read_bytes()
 
-    monkeypatch.setattr(bvh_reader, "read_bytes", read_bytes)
+    monkeypatch.setattr(capture_words, "read_bytes", read_bytes)
     (tmp_path / "step.bvh").write_text(bvh({}, {"LeftArm": (0.0, 0.0, 60.0)}, step=1.0))
     inner = '<Sequence><Motion type="Keyframe" file="step.bvh" start="0"/></Sequence>'
     (tmp_path / "inner.xml").write_text(inner)

@@ -9,12 +9,15 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply, power, slerp
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
+from reactive_realizer.engines.animation.monotone_curve import MonotoneCurve
 from reactive_realizer.engines.animation.motion_unit import FILE, Moment, MotionPose, MotionUnit, layer_of, ordered
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SequencePart:
-    """A motion shifted to a start and stretched to an end, as SmartBody's TimeShiftWarp and Blend do (4.2.2).
+    """A motion shifted to a start, with its own course of time, and of its weight: SmartBody's TimeShiftWarp and Blend.
+
+    (SmartBody, section 4.2.2.)
 
     Attributes:
         motion: with its own phase, 0 to 1.
@@ -22,6 +25,8 @@ class SequencePart:
         end: s of the sequence, after the start.
         ease_in: duration in which its weight rises, from the start, s.
         ease_out: duration in which its weight falls, until the end, s.
+        phases: phase of the motion by the time since the start, s; None if it is stretched evenly.
+        weights: its weight by the time since the start, s; None for that of `ease_in` and `ease_out`.
     """
 
     motion: MotionUnit
@@ -29,18 +34,22 @@ class SequencePart:
     end: float
     ease_in: float = 0.0
     ease_out: float = 0.0
+    phases: MonotoneCurve | None = None
+    weights: MonotoneCurve | None = None
 
     def plays(self, time: float) -> bool:
         """Return whether it plays at a time, s."""
         return self.start <= time <= self.end
 
     def time(self, sync: str) -> float:
-        """Return the time of one of its own sync points, s.
+        """Return the first time of one of its own sync points, s.
 
         Raises:
             KeyError: there is no such point.
+            ValueError: the motion is never there.
         """
-        return self.start + self.motion.key_positions[sync] * (self.end - self.start)
+        phase = self.motion.key_positions[sync]
+        return self.start + (phase * (self.end - self.start) if self.phases is None else self.phases.first_time(phase))
 
     def layer(self, time: float, moment: Moment) -> Layer:
         """Return its layer.
@@ -52,10 +61,13 @@ class SequencePart:
         Raises:
             RealizerError: as `layer_of`.
         """
-        return layer_of(self.motion, moment._replace(phase=share(time, self.start, self.end)))
+        phase = share(time, self.start, self.end) if self.phases is None else self.phases(time - self.start)
+        return layer_of(self.motion, moment._replace(phase=phase))
 
     def weight(self, time: float) -> float:
         """Return its weight at a time, 0 to 1: SmartBody's blending curve."""
+        if self.weights is not None:
+            return self.weights(time - self.start)
         arrived = minimum_jerk(share(time, self.start, self.start + self.ease_in))
         left = minimum_jerk(share(time, self.end - self.ease_out, self.end)) if self.ease_out else 0.0
         return arrived * (1.0 - left)

@@ -1,13 +1,16 @@
 """Reads sequence files, and makes sequences of the motions of other makers."""
 
 import logging
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
 
 from reactive_realizer.binding.asset_file import ENDS, XmlElement, asset_error, attribute, number, read_xml, sync_id
 from reactive_realizer.engines.animation.faults import NoFile
+from reactive_realizer.engines.animation.monotone_curve import MonotoneCurve
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionMaker, MotionRequest, PreloadingMaker
 from reactive_realizer.engines.animation.motion_parameters import listed
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
@@ -16,6 +19,8 @@ from reactive_realizer.errors import RealizerError
 
 _PARTS = ("ProcAnimation", "Gesture", "Keyframe", "noise", "Sequence")
 """Kinds of motions that may be parts. The engine handles others specially: gaze, transitions, and shifts."""
+
+_EASES = ("easeIn", "easeOut")
 
 _log = logging.getLogger(__name__)
 
@@ -27,9 +32,9 @@ class SequenceMaker:
     """Makes sequences of motions that other makers make.
 
     A file has a `Motion` for each part; later parts lie over earlier ones. Its attributes are `type` and `file` as in a
-    binding, `start`, and `end` (by default, its preferred duration applies), `easeIn` and `easeOut`, all in s; each
-    `parameter` child is a value that the behavior may override. A `KeyPosition` makes a sync point of a part
-    (`ref="part:sync"`) one of the sequence.
+    binding, `start`, and `end` (by default, its preferred duration applies), `easeIn` and `easeOut`, all in s. The
+    curve `phases` replaces `end`, and `weights` the eases. Each `parameter` child is a value that the behavior may
+    override. A `KeyPosition` makes a sync point of a part (`ref="part:sync"`) one of the sequence.
     """
 
     def __init__(self, context: MakerContext, makers: Mapping[str, MotionMaker]) -> None:
@@ -96,12 +101,34 @@ class SequenceMaker:
             raise asset_error(element, f"a sequence, with nested ones, has more than {_MOST} parts")
         motion = self._makers[unit](_part_request(element, request))
         _log_unused(element, motion)
+        phases, weights = _curve(element, "phases", "end"), _curve(element, "weights", *_EASES)
         start = number(element, "start")
-        end = start + motion.preferred_duration if element.get("end") is None else number(element, "end")
-        eases = [number(element, name) if name in element.attrib else 0.0 for name in ("easeIn", "easeOut")]
-        if not 0.0 <= start < end or min(eases) < 0.0 or sum(eases) > end - start:
+        duration = motion.preferred_duration if phases is None else phases.duration
+        end = start + duration if element.get("end") is None else number(element, "end")
+        ease_in, ease_out = (number(element, name) if name in element.attrib else 0.0 for name in _EASES)
+        if not 0.0 <= start < end or min(ease_in, ease_out) < 0.0 or ease_in + ease_out > end - start:
             raise asset_error(element, "it needs 0 <= start < end, with easeIn and easeOut between them")
-        return SequencePart(motion, start, end, *eases)
+        return SequencePart(motion, start, end, ease_in, ease_out, phases, weights)
+
+
+def _curve(element: XmlElement, name: str, *others: str) -> MonotoneCurve | None:
+    """Return the curve of an attribute that replaces others: ``0 0, 1.2 1``, each a time, s, and a value, 0 to 1."""
+    if name not in element.attrib:
+        return None
+    text = attribute(element, name)
+    replaced = [other for other in others if other in element.attrib]
+    if replaced:
+        raise asset_error(element, f"{name} replaces {listed(replaced)}")
+    try:
+        points = [(float(time), float(value)) for time, value in (point.split() for point in text.split(","))]
+    except ValueError:
+        points = []
+    times = [time for time, _ in points]
+    rising = times[:1] == [0.0] and all(earlier < later < math.inf for earlier, later in pairwise(times))
+    if len(points) < 2 or not rising or not all(0.0 <= value <= 1.0 for _, value in points):
+        form = "two or more times, from 0 on and increasing, each with a value from 0 to 1: 0 0, 0.5 1"
+        raise asset_error(element, f"{name}='{text}': it must be {form}")
+    return MonotoneCurve(points)
 
 
 def _log_unused(element: XmlElement, motion: MotionUnit) -> None:
@@ -135,6 +162,7 @@ def _key_position(key: XmlElement, parts: Mapping[str, SequencePart]) -> tuple[s
     name, _, sync = attribute(key, "ref").partition(":")
     if (own := sync_id(key)) in ENDS:
         raise asset_error(key, "start and end are reserved for the whole sequence")
-    if name not in parts or sync not in parts[name].motion.key_positions:
-        raise asset_error(key, f"there is no point '{key.get('ref')}'")
-    return own, parts[name].time(sync)
+    try:
+        return own, parts[name].time(sync)
+    except (KeyError, ValueError):
+        raise asset_error(key, f"there is no point '{key.get('ref')}'") from None
