@@ -42,3 +42,15 @@ class NotABoolean(CreationFault):
     template = "{name}='{value}' must be true or false"
     name: str
     value: str
+
+
+class NotInLibrary(CreationFault):
+    """A library of gestures, movements or faces, one file for all of them, that has none with the name."""
+
+    code = "not-in-library"
+    template = "{file} has no {element} '{name}'; available: {known}"
+    unknown = "name"
+    file: str
+    element: str
+    name: str
+    known: tuple[str, ...]

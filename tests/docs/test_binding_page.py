@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions
+from reactive_realizer.binding.gestuary import AHEAD, OUTWARD, UPWARD
 from reactive_realizer.binding.gesture_binding import MURML_TEXT, GestureBinding
 from reactive_realizer.binding.unit_spec import CLASS_NAMES
 from reactive_realizer.bml.murml.description import Scope
 from reactive_realizer.engines.animation.motion_library import MAKERS
+from reactive_realizer.engines.animation.motions.greta_hands import STAND_INS, TOUCHED
 from reactive_realizer.engines.animation.motions.murml_files import read_murml_text
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
@@ -109,6 +111,33 @@ async def test_the_gesture_of_embots_plays_with_the_entry_on_the_page(assets: Pa
     assert told.time("b:h:relax") - told.time("b:h:start") == pytest.approx(1.3, abs=0.2)
 
 
+async def test_the_gestures_of_greta_play_with_the_entry_on_the_page(assets: Path, tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text(
+        '[character.alice]\navatar = "avatars/female.glb"\nbindings = { gesture = "greta.xml" }\n', encoding="utf-8"
+    )
+    async with open_pilot(SceneOptions(human, "text", (assets,))) as pilot:
+        pilot.watch()
+        pilot.block(
+            "b", '<gesture id="g" lexeme="metaphoric=Unfold"/><gesture id="h" lexeme="REMEMBER" start="g:end"/>'
+        )
+        await pilot.advance(6)
+    assert pilot.feedback.warnings == []
+    assert moved(pilot, "r_wrist", "b:g") > 0.3
+    assert moved(pilot, "l_wrist", "b:h") > 0.3
+
+
+def test_the_page_gives_the_values_of_gretas_symbols_places_and_shapes() -> None:
+    section = TEXT.partition("## Gestures of Greta")[2]
+    for symbols in (OUTWARD, UPWARD, AHEAD):
+        assert ", ".join(f"`{symbol}` {value}" for symbol, value in symbols.items()) in section
+    (row,) = re.findall(r"^\| `touchPosition` \| (.*) \|$", section, re.MULTILINE)
+    assert set(re.findall(r"`([a-z]+)`", row)) == TOUCHED.keys()
+    stand_ins = re.findall(r"^\| `(hands_.*)` \| (.*) \|$", section, re.MULTILINE)
+    named = {shape.lower(): pose for pose, shapes in stand_ins for shape in re.findall(r"`(\w+)`", shapes)}
+    assert named == STAND_INS
+
+
 def test_the_page_lists_every_kind_of_motion() -> None:
     table = TEXT.partition("## Kinds of motion")[2].partition("## Rest")[0]
     firsts = [line.split(" | ")[0] for line in table.splitlines() if line.startswith("| `")]
@@ -117,7 +146,7 @@ def test_the_page_lists_every_kind_of_motion() -> None:
 
 
 def test_the_page_maps_every_class_to_its_kind() -> None:
-    table = TEXT.partition("## Classes of AsapRealizer")[2]
+    table = TEXT.partition("## Classes of AsapRealizer")[2].partition("\n## ")[0]
     rows = re.findall(r"^\| (`.*`) \| `(.*)` \|$", table, re.MULTILINE)
     named = {f"{PACKAGE}{name}": unit for names, unit in rows for name in re.findall(r"`([\w.]+)`", names)}
     assert named == CLASS_NAMES

@@ -36,6 +36,7 @@ from reactive_realizer.engines.animation.motions.embr_gesture import EmbrGesture
 from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
 from reactive_realizer.engines.animation.motions.gesture import GestureMaker
 from reactive_realizer.engines.animation.motions.glance import GlanceMaker
+from reactive_realizer.engines.animation.motions.greta_gesture import GretaGestureMaker
 from reactive_realizer.engines.animation.motions.key_poses import KeyPosesMaker
 from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
@@ -71,6 +72,7 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "key-poses": KeyPosesMaker,
         "MURML": MurmlMaker,
         "EMBRScript": EmbrGestureMaker,
+        "GretaGesture": GretaGestureMaker,
         "locomotion": LocomotionMaker,
         "posture": PostureMaker,
         "posture-shift": PostureMaker,

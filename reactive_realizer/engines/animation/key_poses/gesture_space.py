@@ -62,3 +62,25 @@ def gesture_place(height: float, angle: float, far: float, skeleton: Skeleton) -
     broad = deep + body.breadth
     distance = deep * broad / math.hypot(broad * math.cos(turn), deep * math.sin(turn)) if deep > 0.0 else 0.0
     return (distance * math.sin(turn), up, distance * math.cos(turn))
+
+
+def arm_place(outward: float, up: float, ahead: float, side: str, skeleton: Skeleton) -> Vec3:
+    """Return a place of a hand as Greta states it, from the pelvis, in the figure's axes, m.
+
+    Args:
+        outward: from the middle of the body to the side of the hand, in lengths of the arm.
+        up: from the elbow of the hanging arm, in the same lengths.
+        ahead: from the shoulder, in the same lengths.
+        side: "l" or "r".
+        skeleton: of the figure.
+    """
+    body = Body(skeleton)
+    pelvis, shoulder, elbow = (
+        body.transform(joint).position for joint in (skeleton.joints[0], f"{side}_shoulder", f"{side}_elbow")
+    )
+    arm = arm_length(skeleton)
+    return (
+        (arm if side == "l" else -arm) * outward,
+        elbow[1] - pelvis[1] + arm * up,
+        shoulder[2] - pelvis[2] + arm * ahead,
+    )
