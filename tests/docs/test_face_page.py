@@ -29,17 +29,18 @@ async def test_an_example_plays_without_a_warning(example: Fence) -> None:
         assert max(weight.max() for weight in weights) > 0.2
 
 
-async def test_the_words_of_the_binding_on_the_page_play(tmp_path: Path) -> None:
-    (tmp_path / "my_assets").mkdir()
+@pytest.mark.parametrize(("folder", "block"), [("my_assets", "play"), ("greta", "document1")])
+async def test_the_words_of_the_bindings_on_the_page_play(tmp_path: Path, folder: str, block: str) -> None:
+    (tmp_path / folder).mkdir()
     for fence in fences(PAGE, "xml"):
-        if fence.note:
+        if fence.note.startswith(folder):
             (tmp_path / fence.note).write_text(fence.text, encoding="utf-8")
-    assets = tmp_path / "my_assets"
+    assets = tmp_path / folder
     async with open_pilot(SceneOptions(voice="text", assets=(assets,))) as pilot:
         pilot.perform((assets / "block.xml").read_text("utf-8"))
         await pilot.advance(5)
         assert pilot.feedback.warnings == []
-        assert pilot.feedback.status("play") == "DONE"
+        assert pilot.feedback.status(block) == "DONE"
 
 
 def test_the_page_lists_every_kind_of_face_unit() -> None:

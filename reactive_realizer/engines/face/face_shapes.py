@@ -19,6 +19,7 @@ from reactive_realizer.engines.face.emotion_wheel import EmotionWheel
 from reactive_realizer.engines.face.expressions import Expressions
 from reactive_realizer.engines.face.face_timing import FaceShape
 from reactive_realizer.engines.face.faps import FapTable
+from reactive_realizer.engines.face.greta_faces import GretaFaces
 from reactive_realizer.engines.face.weights import Weights, added, limited, scaled
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.file_cache import remembered
@@ -30,6 +31,8 @@ LEXEMES = "face/lexemes.json"
 _UNITS = "face/action_units.json"
 _FAPS = "face/faps.json"
 _WHEEL = "face/emotion_wheel.json"
+_GRETA = "**/facelibrary.xml"
+"""The name of a library of faces in Greta."""
 
 _SHARE, _ANGLE, _ACTIVATION, _VALUE = Float(0, 1), Float(0, 360), Float(0, 7), Float()
 _MOST_ACTION_UNITS = 999
@@ -177,6 +180,18 @@ class FaceShapes:
             parts.append(scaled(unit.weights(Side.BOTH if side == "NONE" else Side(side)), number(element, "value")))
         return limited(added(parts))
 
+    def greta(self, parameters: FaceParameters) -> FaceShape:
+        """An expression of a library of Greta.
+
+        Raises:
+            RealizerError: "no-asset", "bad-asset" or "not-in-library".
+        """
+        units = frozenset(self.expressions.units)
+        library = GretaFaces.read(self.asset(parameters.file or _GRETA), units)
+        actions = library.face(parameters.read("lexeme", _text))
+        parts = [scaled(self.expressions.unit(each.unit).weights(each.side), each.intensity) for each in actions]
+        return FaceShape(scaled(limited(added(parts)), parameters.intensity))
+
     def morph(self, parameters: FaceParameters) -> FaceShape:
         """A morph target.
 
@@ -261,12 +276,13 @@ KINDS: Mapping[str, FaceKind] = MappingProxyType(
         "Lexeme": FaceKind(("lexeme", "intensity"), FaceShapes.lexeme),
         "AU": FaceKind(("au", "side", "intensity"), FaceShapes.action_unit),
         "FACS": FaceKind(("intensity",), FaceShapes.configuration),
+        "GretaFace": FaceKind(("lexeme", "intensity"), FaceShapes.greta),
         "Morph": FaceKind(("targetname", "intensity"), FaceShapes.morph),
         "FAP": FaceKind(("fap", "value", *_SELECTIONS), FaceShapes.fap),
         "Plutchik": FaceKind(("angle", "activation", "intensity"), FaceShapes.emotion),
     }
 )
-"""The kinds by the ``type`` of a FaceUnit; the names are AsapRealizer's, except for Lexeme and FAP."""
+"""The kinds by the ``type`` of a FaceUnit; the names are AsapRealizer's, except for Lexeme, GretaFace and FAP."""
 
 
 def _text(text: str, limits: Limits) -> str:
