@@ -127,6 +127,23 @@ async def test_the_gestures_of_greta_play_with_the_entry_on_the_page(assets: Pat
     assert moved(pilot, "l_wrist", "b:h") > 0.3
 
 
+async def test_the_movements_of_greta_play_with_the_entries_on_the_page(assets: Path, tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text(
+        '[character.alice]\navatar = "avatars/female.glb"\nidle = 0\nbindings = { gesture = "greta_spine.xml" }\n',
+        encoding="utf-8",
+    )
+    async with open_pilot(SceneOptions(human, "text", (assets,))) as pilot:
+        pilot.watch()
+        pilot.perform(
+            '<bml id="b"><head id="g" lexeme="NOD" amount="1"/><torso id="t" lexeme="LeanIn" start="2" end="5"/></bml>'
+        )
+        await pilot.advance(6)
+    assert pilot.feedback.warnings == []
+    assert moved(pilot, "skullbase", "b:t") > 0.05
+    assert pilot.feedback.time("b:g:strokeEnd") > pilot.feedback.time("b:g:stroke")
+
+
 def test_the_page_gives_the_values_of_gretas_symbols_places_and_shapes() -> None:
     section = TEXT.partition("## Gestures of Greta")[2]
     for symbols in (OUTWARD, UPWARD, AHEAD):

@@ -37,6 +37,7 @@ from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker,
 from reactive_realizer.engines.animation.motions.gesture import GestureMaker
 from reactive_realizer.engines.animation.motions.glance import GlanceMaker
 from reactive_realizer.engines.animation.motions.greta_gesture import GretaGestureMaker
+from reactive_realizer.engines.animation.motions.greta_spine import GretaSpineMaker
 from reactive_realizer.engines.animation.motions.key_poses import KeyPosesMaker
 from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
@@ -73,6 +74,8 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
         "MURML": MurmlMaker,
         "EMBRScript": EmbrGestureMaker,
         "GretaGesture": GretaGestureMaker,
+        "GretaHead": partial(GretaSpineMaker, part="head"),
+        "GretaTorso": partial(GretaSpineMaker, part="torso"),
         "locomotion": LocomotionMaker,
         "posture": PostureMaker,
         "posture-shift": PostureMaker,
