@@ -147,7 +147,7 @@ class UnitLifecycle:
         if block is None or not block.state.plays or not unit.live:
             return
         pegs = {point.id: point.peg for point in unit.ahead() if not point.peg.pinned}
-        with self._board.graph.transaction(f"sound of {unit.behavior.id}"):
+        with self._board.graph.transaction(f"move {unit.behavior.id}"):
             if unit.timing.rigid:
                 later = {sync: times[sync] - peg.value for sync, peg in pegs.items() if peg.value is not None}
                 self._shift_from(block, unit, later)

@@ -370,12 +370,10 @@ class AnimationEngine(DefaultEngine):
             for side in SIDES
             if unit.live and unit.motion.kind in _CLAIMING and f"{side}_shoulder" in unit.motion.joints
         }
-        asked = {
-            side: (unit, [hand for hand in unit.motion.hands if hand.side == side]) for side, unit in uppermost.items()
-        }
-        if self._leaning.rests and not any(goals for _, goals in asked.values()):
+        goals = [hand for side, unit in uppermost.items() for hand in unit.motion.hands if hand.side == side]
+        if not goals and self._leaning.rests:
             return ()
-        return self._leaning.layers(now, asked, compose(self._humanoid.avatar.skeleton, layers).shown)
+        return self._leaning.layers(now, goals, compose(self._humanoid.avatar.skeleton, layers).shown)
 
     def _breath(self, now: GlobalTime, standing: float) -> tuple[Layer, ...]:
         for unit in self.player.playing:

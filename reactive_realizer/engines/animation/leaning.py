@@ -18,7 +18,9 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import HEAD, SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import (
+    IDENTITY,
     Quat,
+    angle,
     conjugate,
     difference,
     from_rotation_vector,
@@ -50,10 +52,13 @@ rotation and 35 of lateral bending each way (American Academy of Orthopaedic Sur
 shares are ours: lumbar vertebrae hardly turn.
 """
 
-_STEPS: Final = 8
+_STEPS: Final = 12
 """Steps of the solution."""
 
-_DAMPING: Final = 0.02
+_LONGEST_STEP: Final = 0.1
+"""Limit of the distance that a step covers, m: beyond what the joints allow, longer ones would not settle."""
+
+_DAMPING: Final = 0.1
 """Of the solution, m: without leverage, the trunk does not move."""
 
 _NEAR: Final = 1e-4
@@ -63,24 +68,26 @@ _GIVEN_UP: Final = (0.1, 0.3)
 """Distances that are left even with the trunk, m: up to the first one, it leans as far as it can, from the second one
 on, not at all."""
 
-_JUMP: Final = 0.05
-"""Share of a lean that is made at once from which on the trunk goes over to it."""
+_JUMP: Final = 0.02
+"""Difference between the turns of a joint in two frames from which on the trunk goes over to its lean, rad."""
 
 _GOING_OVER: Final = 1.0
 """Time in which the trunk goes over to another lean, s."""
 
 
 class HandGoal(NamedTuple):
-    """A place to which a motion brings a wrist.
+    """A place to which a motion brings a point of a hand.
 
     Attributes:
         side: "l" or "r".
         place: in the figure's frame, m.
+        hand: by how much that point is further than the wrist in line with a straight arm, m.
         share: by which the trunk makes up for what the arm does not reach, 0 to 1: on the way there, it increases.
     """
 
     side: str
     place: Vec3
+    hand: float = 0.0
     share: float = 1.0
 
 
@@ -98,9 +105,9 @@ class _Approach(NamedTuple):
     distance: float
 
     @classmethod
-    def of(cls, skeleton: Skeleton, side: str, place: Vec3) -> "_Approach":
-        """Return the approach after which an arm reaches a place."""
-        return cls(side, place, Arm.of(skeleton, side).reach)
+    def of(cls, goal: HandGoal, skeleton: Skeleton) -> "_Approach":
+        """Return the approach after which an arm reaches a goal."""
+        return cls(goal.side, goal.place, Arm.of(skeleton, goal.side).reach + goal.hand)
 
     def left(self, body: Body) -> float:
         """Return by how much a shoulder is too far away, m; negative if it is nearer."""
@@ -115,10 +122,10 @@ class _Approach(NamedTuple):
 
 
 class Reached(NamedTuple):
-    """What an arm reaches of a place.
+    """How far a hand gets.
 
     Attributes:
-        far: distance that the wrist falls short of it while the trunk is upright, m.
+        far: distance by which it falls short of its goal while the trunk is upright, m.
         left: the same with a trunk that leans for it as far as it can, m.
         leant: the body then.
     """
@@ -128,15 +135,9 @@ class Reached(NamedTuple):
     leant: Body
 
     @classmethod
-    def of(cls, body: Body, side: str, place: Vec3) -> "Reached":
-        """Return what a figure reaches.
-
-        Args:
-            body: that does not lean.
-            side: "l" or "r".
-            place: of the wrist, in the figure's frame, m.
-        """
-        approach = _Approach.of(body.skeleton, side, place)
+    def of(cls, body: Body, goal: HandGoal) -> "Reached":
+        """Return how far a hand of a body gets that does not lean."""
+        approach = _Approach.of(goal, body.skeleton)
         leant = _leant(body, [approach])
         return cls(max(0.0, approach.left(body)), max(0.0, approach.left(leant)), leant)
 
@@ -153,7 +154,7 @@ class Reached(NamedTuple):
 
 def leant(body: Body, goals: Sequence[HandGoal]) -> Body:
     """Return a body whose trunk leans for the goals of its hands; the same body if its arms reach them."""
-    options = [_options([goal for goal in goals if goal.side == side], body) for side in SIDES]
+    options = [_options((goal for goal in goals if goal.side == side), body) for side in SIDES]
     return _blended(options, body) if any(options) else body
 
 
@@ -169,36 +170,35 @@ class Leaning:
         """
         self._joints = frozenset(joint for joint in (*SPINE_RANGES, *HEAD) if joint in skeleton)
         self._release = release
-        self._owners: dict[str, object] = {}
+        self._turns = self._before = dict.fromkeys(self._joints, IDENTITY)
 
     @property
     def rests(self) -> bool:
         """Whether the trunk does not lean."""
-        return not self._owners
+        return all(turn == IDENTITY for turn in self._turns.values())
 
-    def layers(
-        self, now: GlobalTime, asked: Mapping[str, tuple[object, Sequence[HandGoal]]], body: Body
-    ) -> tuple[Layer, ...]:
+    def layers(self, now: GlobalTime, goals: Sequence[HandGoal], body: Body) -> tuple[Layer, ...]:
         """Return the additive layer of a frame; none if all arms reach their goals.
 
         Args:
             now: s.
-            asked: the motion that moves each hand, by side, and its goals.
+            goals: of the hands.
             body: the figure of this frame without this layer.
         """
-        options = {side: _options(goals, body) for side, (_, goals) in asked.items() if goals}
-        leans = {side: sum(option.weight for option in own) for side, own in options.items() if own}
-        owners = {side: asked[side][0] for side in leans}
-        gone = any(owners.get(side) is not owner for side, owner in self._owners.items())
-        joined = any(lean > _JUMP for side, lean in leans.items() if side not in self._owners)
-        self._owners = owners
-        if gone or joined:
+        leaning = leant(body, goals)
+        if leaning is not body:
+            leaning = _with_head_kept(leaning, body)
+        turns = {joint: difference(body.rotation(joint), leaning.rotation(joint)) for joint in self._joints}
+        if any(_jumps(self._before[joint], self._turns[joint], turn) for joint, turn in turns.items()):
             self._release(self._joints, GlobalTime(now + _GOING_OVER))
-        if not leans:
-            return ()
-        leant = _with_head_kept(_blended(options.values(), body), body)
-        turns = {joint: difference(body.rotation(joint), leant.rotation(joint)) for joint in self._joints}
-        return (Layer(LayerKind.ADDITIVE, turns),)
+            self._turns = turns
+        self._before, self._turns = self._turns, turns
+        return () if leaning is body else (Layer(LayerKind.ADDITIVE, turns),)
+
+
+def _jumps(former: Quat, last: Quat, turn: Quat) -> bool:
+    """Return whether a turn differs from the last one by much more than that did from the one before."""
+    return angle(difference(difference(former, last), difference(last, turn))) > _JUMP
 
 
 class _Option(NamedTuple):
@@ -219,10 +219,9 @@ def _options(goals: Iterable[HandGoal], body: Body) -> list[_Option]:
     """Return the leans for the goals of a hand that its arm does not reach."""
     options = []
     for goal in goals:
-        reached = Reached.of(body, goal.side, goal.place)
+        reached = Reached.of(body, goal)
         if goal.share * reached.help > 0.0:
-            approach = _Approach.of(body.skeleton, goal.side, goal.place)
-            options.append(_Option(goal.share * reached.help, approach, reached.leant))
+            options.append(_Option(goal.share * reached.help, _Approach.of(goal, body.skeleton), reached.leant))
     return options
 
 
@@ -261,7 +260,8 @@ def _step(leant: Body, upright: Body, approaches: Sequence[_Approach]) -> dict[s
     mobility = np.ravel([[(0.5 * (high - low)) ** 2 for low, high in SPINE_RANGES[joint]] for joint in joints])
     levers = np.array([np.ravel(each.levers(leant, joints)) for each in approaches])
     gains = levers * mobility @ levers.T + _DAMPING * _DAMPING * np.eye(len(approaches))
-    turns = mobility * (np.linalg.solve(gains, [each.left(leant) for each in approaches]) @ levers)
+    left = [min(each.left(leant), _LONGEST_STEP) for each in approaches]
+    turns = mobility * (np.linalg.solve(gains, left) @ levers)
     rotations = {}
     for joint, (x, y, z) in zip(joints, turns.reshape(-1, 3).tolist(), strict=True):
         rotations[joint] = _limited(multiply(leant.rotation(joint), from_rotation_vector((x, y, z))), joint, upright)

@@ -8,7 +8,7 @@ for numbers, and for rotations in the tangent space of each key, as EMBR does wi
 import math
 from typing import Literal, NamedTuple
 
-from reactive_realizer.embodiment.quaternion import Quat, difference, from_rotation_vector, multiply, rotation_vector
+from reactive_realizer.embodiment.quaternion import Quat, from_rotation_vector
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, cross, dot, scale
 
 _SMALL = 1e-4
@@ -39,19 +39,17 @@ class Tcb(NamedTuple):
         return slack * (1.0 - corner) * (1.0 + self.bias), slack * (1.0 + corner) * (1.0 - self.bias)
 
 
-class Neighbors(NamedTuple):
+class Corner(NamedTuple):
     """A key of rotations between two others.
 
     Attributes:
-        before: rotation of the key before.
-        here: rotation of the key.
-        after: rotation of the key after it.
-        durations: of the ways from the one before and to the one after, s.
+        before: way from the key before, as a rotation vector in the axes of the joint, the same at both its ends, rad.
+        after: way to the key after it.
+        durations: of these ways, s.
     """
 
-    before: Quat
-    here: Quat
-    after: Quat
+    before: Vec3
+    after: Vec3
     durations: tuple[float, float]
 
     def tangent(self, tcb: Tcb, side: Side) -> Vec3:
@@ -59,34 +57,28 @@ class Neighbors(NamedTuple):
 
         It is corrected for unequal durations, so that both sides have the same velocity if continuity is 0.
         """
-        of_before, of_after = tcb.shares(side)
-        # The way between two rotations is about one axis, which is the same in the axes of both.
-        first, second = (
-            rotation_vector(difference(*ends)) for ends in ((self.before, self.here), (self.here, self.after))
-        )
+        before, after = tcb.shares(side)
         own = self.durations[0] if side == "arriving" else self.durations[1]
-        return scale(add(scale(first, of_before), scale(second, of_after)), 2.0 * own / sum(self.durations))
+        return scale(add(scale(self.before, before), scale(self.after, after)), 2.0 * own / sum(self.durations))
 
 
-def rotation_on_way(start: Quat, goal: Quat, u: float, leaving: Vec3 = ZERO, arriving: Vec3 = ZERO) -> Quat:
-    """Return the rotation at u, 0 to 1, of the cubic from one rotation to another.
+def turn_on_way(way: Vec3, u: float, leaving: Vec3 = ZERO, arriving: Vec3 = ZERO) -> Quat:
+    """Return the turn at u, 0 to 1, of the cubic from one rotation to another.
 
     The cubic is one of rotation vectors from the start (F. Park and B. Ravani, "Smooth invariant interpolation of
-    rotations", ACM Transactions on Graphics 16, 1997), about the shorter arc.
+    rotations", ACM Transactions on Graphics 16, 1997).
 
     Args:
-        start: rotation at 0.
-        goal: rotation at 1.
+        way: to the other rotation, as a rotation vector, rad.
         u: share of the time.
         leaving: velocity at 0, in the axes of the joint there, rad per unit of u.
         arriving: velocity at 1, in the axes of the joint there, rad per unit of u.
     """
-    way = rotation_vector(difference(start, goal))
     left = 1.0 - u
     turned = scale(way, u * u * (3.0 - 2.0 * u))
     turned = add(turned, scale(leaving, u * left * left))
     turned = add(turned, scale(_rate(way, arriving), -u * u * left))
-    return multiply(start, from_rotation_vector(turned))
+    return from_rotation_vector(turned)
 
 
 def _rate(way: Vec3, velocity: Vec3) -> Vec3:

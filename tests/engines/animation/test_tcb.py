@@ -1,6 +1,7 @@
 """Curves of rotations with tension, continuity and bias (D. Kochanek and R. Bartels 1984; K. Shoemake 1987)."""
 
 import math
+from itertools import pairwise
 
 import pytest
 from hypothesis import given, settings
@@ -17,7 +18,7 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.vector import Vec3, length, scale, unit
 from reactive_realizer.engines.animation.expression.functions import hermite, tcbspline
-from reactive_realizer.engines.animation.tcb import Neighbors, Tcb, rotation_on_way
+from reactive_realizer.engines.animation.tcb import Corner, Tcb, turn_on_way
 
 STEP = 1e-5
 
@@ -38,15 +39,15 @@ checked = settings(max_examples=150, deadline=None, derandomize=True)
 def on_curve(keys: tuple[Quat, ...], spacing: Times, time: float, first: Tcb, second: Tcb) -> Quat:
     """The rotation at a time after the first of four keys, on the curve past the two inner ones, from rest to rest."""
     before, between, after = spacing
-    corner = Neighbors(keys[0], keys[1], keys[2], (before, between))
-    other = Neighbors(keys[1], keys[2], keys[3], (between, after))
+    ways = [rotation_vector(difference(*pair)) for pair in pairwise(keys)]
+    corner, other = Corner(ways[0], ways[1], (before, between)), Corner(ways[1], ways[2], (between, after))
     if time < before:
-        return rotation_on_way(keys[0], keys[1], time / before, arriving=corner.tangent(first, "arriving"))
+        return multiply(keys[0], turn_on_way(ways[0], time / before, arriving=corner.tangent(first, "arriving")))
     if time < before + between:
         velocities = corner.tangent(first, "leaving"), other.tangent(second, "arriving")
-        return rotation_on_way(keys[1], keys[2], (time - before) / between, *velocities)
+        return multiply(keys[1], turn_on_way(ways[1], (time - before) / between, *velocities))
     u = (time - before - between) / after
-    return rotation_on_way(keys[2], keys[3], u, other.tangent(second, "leaving"))
+    return multiply(keys[2], turn_on_way(ways[2], u, other.tangent(second, "leaving")))
 
 
 def apart(a: Quat, b: Quat) -> float:

@@ -19,6 +19,7 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import FORWARD, ZERO, Vec3, add, cross, dot, length, rejected, subtract, unit
+from reactive_realizer.engines.animation.leaning import HandGoal
 from reactive_realizer.engines.animation.procedural.effector_track import natural_arm
 from reactive_realizer.engines.animation.procedural.tracks import parent_rotation
 
@@ -113,6 +114,26 @@ class ArmGoals:
         for _ in range(_ROUNDS if length(self.tip) > 0.0 else 0):
             solved, hand = self._reaching(subtract(target, rotate(hand, self.tip)), body, wrist)
         return solved._replace(rotations=dict(natural_arm(self.side, solved.rotations, body.skeleton)))
+
+    def hand_goal(self, body: Body, wrist: Quat) -> HandGoal | None:
+        """Return where the hand is to be; None if it only turns.
+
+        Args:
+            body: whose trunk does not lean.
+            wrist: rotation of a wrist without a direction.
+        """
+        if self.place is None:
+            return None
+        if self.directions and length(self.tip) > 0.0:
+            place = self.solve(body, wrist).place
+            return None if place is None else HandGoal(self.side, place)
+        pelvis = body.transform(body.skeleton.joints[0]).position
+        return HandGoal(self.side, add(pelvis, self.place), self.hand_length(body.skeleton, wrist))
+
+    def hand_length(self, skeleton: Skeleton, wrist: Quat) -> float:
+        """Return by how much the point of the hand is further than the wrist in line with a straight arm, m."""
+        along = unit(Arm.of(skeleton, self.side).lower)
+        return max(0.0, dot(rotate(wrist, self.tip), along))
 
     def _reaching(self, goal: Vec3, body: Body, wrist: Quat) -> tuple[SolvedArm, Quat]:
         """Return the rotations that bring the wrist to a goal in the figure's frame, and that of the hand there."""

@@ -32,12 +32,10 @@ class SolvedRotations(NamedTuple):
     Attributes:
         rotations: of its joints, local to their parents.
         missed: a goal that is out of reach; None if there is none.
-        hands: where wrists are to be.
     """
 
     rotations: Mapping[str, Quat]
     missed: Missed | None = None
-    hands: tuple[HandGoal, ...] = ()
 
 
 class JointPose(Protocol):
@@ -53,6 +51,15 @@ class JointPose(Protocol):
 
         Args:
             body: whose trunk carries arms and head.
+            rest: rotations of its joints without goals.
+        """
+        ...
+
+    def hands(self, body: Body, rest: Mapping[str, Quat]) -> tuple[HandGoal, ...]:
+        """Return where hands are to be, so that the trunk may lean for them.
+
+        Args:
+            body: whose trunk does not lean.
             rest: rotations of its joints without goals.
         """
         ...
@@ -77,8 +84,11 @@ class SeveralPoses:
         """Return the rotations of its joints; of several goals out of reach, the first is reported."""
         solved = [pose.solve(body, rest) for pose in self.poses]
         rotations = {joint: turn for each in solved for joint, turn in each.rotations.items()}
-        missed = next((each.missed for each in solved if each.missed is not None), None)
-        return SolvedRotations(rotations, missed, tuple(hand for each in solved for hand in each.hands))
+        return SolvedRotations(rotations, next((each.missed for each in solved if each.missed is not None), None))
+
+    def hands(self, body: Body, rest: Mapping[str, Quat]) -> tuple[HandGoal, ...]:
+        """Return where hands are to be."""
+        return tuple(hand for pose in self.poses for hand in pose.hands(body, rest))
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,16 +123,19 @@ class SolvedPose:
             rest: rotations of its joints without goals.
         """
         rotations = {joint: slerp(rest[joint], goal, self.influence) for joint, goal in self.stored.items()}
-        missed, hands = None, tuple[HandGoal, ...]()
+        missed = None
         if self.head is not None:
             rotations |= self.head.solve(body, rest)
         if self.arm is not None:
             end = f"{self.arm.side}_wrist"
             solved = self.arm.solve(body, rotations.get(end, rest[end]))
             rotations |= {joint: solved.rotations[joint] for joint in self.arm.joints}
-            if solved.place is not None:
-                hands = (HandGoal(self.arm.side, solved.place),)
             if solved.missing > 0.0:
                 reach = Arm.of(body.skeleton, self.arm.side).reach
                 missed = Missed(end, solved.missing, solved.missing / reach)
-        return SolvedRotations(rotations, missed, hands)
+        return SolvedRotations(rotations, missed)
+
+    def hands(self, body: Body, rest: Mapping[str, Quat]) -> tuple[HandGoal, ...]:
+        """Return where its hand is to be; nothing if that only turns."""
+        goal = None if self.arm is None else self.arm.hand_goal(body, rest[f"{self.arm.side}_wrist"])
+        return () if goal is None else (goal,)

@@ -14,7 +14,7 @@ from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import HEAD, SIDES, TRUNK
 from reactive_realizer.embodiment.pose import LayerKind
-from reactive_realizer.embodiment.quaternion import Quat
+from reactive_realizer.embodiment.quaternion import Quat, multiply
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
@@ -34,7 +34,7 @@ from reactive_realizer.engines.animation.motions.pose_goals import PoseGoals
 from reactive_realizer.engines.animation.motions.rotation_curves import GrowingArcs
 from reactive_realizer.engines.animation.procedural.effector_track import carried_as_shown
 from reactive_realizer.engines.animation.shortest import Profile
-from reactive_realizer.engines.animation.tcb import Neighbors, Side, Tcb, rotation_on_way
+from reactive_realizer.engines.animation.tcb import Corner, Side, Tcb, turn_on_way
 from reactive_realizer.errors import Fault, RealizerError
 
 _LOWER = frozenset({*HEAD, *TRUNK})
@@ -136,7 +136,7 @@ class KeyPosesMotionUnit(MotionUnit):
         done = key.profile(passed)
         at = cache(lambda number: self._at(number, body, moment))
         if moment.shown is not None:
-            self.hands = tuple(_hands(at(number - 1), at(number), passed, weight))
+            self.hands = tuple(self._hands(number, passed, weight, moment.body))
         if passed == 1.0:
             return MotionPose(at(number).rotations, weight)
         if key.way is not None:
@@ -155,9 +155,12 @@ class KeyPosesMotionUnit(MotionUnit):
         key, here, there = self._keys[number], at(number - 1).rotations, at(number).rotations
         leaving, arriving = self._velocities(number - 1, at, "leaving"), self._velocities(number, at, "arriving")
         if leaving or arriving:
+            ways = self._ways(number, at)
             turned = {
-                joint: rotation_on_way(here[joint], goal, done, leaving.get(joint, ZERO), arriving.get(joint, ZERO))
-                for joint, goal in there.items()
+                joint: multiply(
+                    turn, turn_on_way(ways[joint], done, leaving.get(joint, ZERO), arriving.get(joint, ZERO))
+                )
+                for joint, turn in here.items()
             }
         else:
             arcs = self._arcs[number]
@@ -172,32 +175,45 @@ class KeyPosesMotionUnit(MotionUnit):
         return on_way([CarriedArm.of(body.skeleton, side) for side in sides], turned, way, body)
 
     def _velocities(self, number: int, at: Poses, side: Side) -> Mapping[str, Vec3]:
-        """Return the velocities of the joints on one side of a key pose (`Neighbors`); none where the motion stops."""
+        """Return the velocities of the joints on one side of a key pose (`Corner`); none where the motion stops."""
         tcb = self._keys[number].tcb if number >= 0 else None
         if tcb is None:
             return {}
-        before, here, after = (at(each).rotations for each in (number - 1, number, number + 1))
+        before, after = self._ways(number, at), self._ways(number + 1, at)
         first, second = (key.reached - key.begins for key in self._keys[number : number + 2])
-        return {
-            joint: Neighbors(before[joint], turn, after[joint], (first, second)).tangent(tcb, side)
-            for joint, turn in here.items()
-        }
+        return {joint: Corner(way, after[joint], (first, second)).tangent(tcb, side) for joint, way in before.items()}
+
+    def _ways(self, number: int, at: Poses) -> Mapping[str, Vec3]:
+        """Return the ways of the joints to a key pose as rotation vectors, rad."""
+        here, there = at(number - 1).rotations, at(number).rotations
+        return {joint: self._arcs[number].way(joint, turn, there[joint]) for joint, turn in here.items()}
 
     def _solved(self, key: Key, pose: JointPose, body: Body, moment: Moment) -> SolvedRotations:
         """Return the rotations of all joints in a pose on the way to a key pose."""
-        rest = {joint: self._rest.rotation(joint) for joint in self.joints}
+        rest = self._rest_rotations()
         solved = pose.solve(body, rest)
         if solved.missed is not None and solved.missed.share > _STRETCHED and moment.shown is not None:
-            self.fault = self.fault or self._unreachable(key, solved, moment.body)
+            self.fault = self.fault or self._unreachable(key, pose, moment.body)
         return solved._replace(rotations={**rest, **solved.rotations})
 
-    def _unreachable(self, key: Key, solved: SolvedRotations, upright: Body) -> Fault | None:
+    def _rest_rotations(self) -> dict[str, Quat]:
+        return {joint: self._rest.rotation(joint) for joint in self.joints}
+
+    def _hands(self, number: int, passed: float, weight: float, body: Body) -> Iterator[HandGoal]:
+        """Yield where hands are to be on the way to a key pose, after a share of its time."""
+        done = minimum_jerk(passed)
+        for each, part in ((number - 1, 1.0 - done), (number, done)):
+            if part > 0.0 and each >= 0:
+                hands = self._keys[each].pose.hands(body, self._rest_rotations())
+                yield from (hand._replace(share=part * weight) for hand in hands)
+
+    def _unreachable(self, key: Key, pose: JointPose, upright: Body) -> Fault | None:
         """Return the fault of a hand that its place is far from even if the trunk leans; None if it is not."""
-        for side, place, _ in solved.hands:
-            missing = Reached.of(upright, side, place).missing
-            if missing > _STRETCHED * Arm.of(upright.skeleton, side).reach:
+        for hand in pose.hands(upright, self._rest_rotations()):
+            missing = Reached.of(upright, hand).missing
+            if missing > _STRETCHED * Arm.of(upright.skeleton, hand.side).reach:
                 phase = key.reached / self.preferred_duration
-                fault = NotReachable(joint=f"{side}_wrist", animation=self._name, phase=phase, distance=missing)
+                fault = NotReachable(joint=f"{hand.side}_wrist", animation=self._name, phase=phase, distance=missing)
                 return fault.located(key.location.line, key.location.column)
         return None
 
@@ -205,13 +221,6 @@ class KeyPosesMotionUnit(MotionUnit):
         come = minimum_jerk(share(time, 0.0, self._fade_in))
         gone = minimum_jerk(share(time, self._relaxes, self.preferred_duration)) if time > self._relaxes else 0.0
         return come * (1.0 - gone)
-
-
-def _hands(here: SolvedRotations, there: SolvedRotations, passed: float, weight: float) -> Iterator[HandGoal]:
-    """Yield where wrists are to be on the way from one pose to another, after a share of its time."""
-    done = minimum_jerk(passed)
-    for solved, part in ((here, 1.0 - done), (there, done)):
-        yield from (hand._replace(share=part * weight) for hand in solved.hands if part > 0.0)
 
 
 def _kind(joints: frozenset[str], *, whole_body: bool) -> LayerKind:

@@ -118,7 +118,7 @@ class PointingMotionUnit(MotionUnit):
         self._begin = {joint: rest.rotation(joint) for joint in self.joints}
         self._arcs = GrowingArcs()
         self._name, self._aimed = name, dict[str, Quat]()
-        self._wrists: list[tuple[str, Vec3 | None]] = []
+        self._goals: tuple[HandGoal, ...] = ()
         self._profile = sigmoid_profile(self.parameters[STEEPNESS], self.parameters[ASYMMETRY])
         self._plain = self._reaching(rest, self._expressivity())
         durations = self.durations(self._expressivity())
@@ -153,12 +153,8 @@ class PointingMotionUnit(MotionUnit):
 
     def _reaching(self, body: Body, expressivity: Expressivity) -> PhaseDuration:
         """Return the duration of the way to the target, without the durations of expressivity."""
-        aims = self._aim(body, expressivity)
-        there = leant(
-            body, [HandGoal(arm.side, aim.wrist) for arm, aim in zip(self._arms, aims, strict=True) if aim.wrist]
-        )
-        if there is not body:
-            aims = self._aim(there, expressivity)
+        there = leant(body, self._hand_goals(self._place(None)))
+        aims = self._aim(there, expressivity)
         return reach(body, there.posed(_turns(aims)), self.joints, self._profile)
 
     def _expressed(self, way: PhaseDuration, expressivity: Expressivity) -> PhaseDuration:
@@ -189,12 +185,12 @@ class PointingMotionUnit(MotionUnit):
         if (phase <= keys["relax"] and not self._keeps) or not self._aimed:
             aims = self._aim(self._figure(moment.time), expressivity, moment.time)
             self._aimed = _turns(aims)
-            self._wrists = [(arm.side, aim.wrist) for arm, aim in zip(self._arms, aims, strict=True)]
+            self._goals = self._hand_goals(self._place(moment.time))
             if phase >= keys["ready"] and self._plays:
                 self.fault = self.fault or self._missed(aims)
         prepared, gone = share(phase, 0.0, keys["ready"]), self._profile(share(phase, keys["relax"], 1.0))
         if moment.shown is not None:
-            self.hands = self._hands(minimum_jerk(prepared) * (1.0 - gone))
+            self.hands = tuple(hand._replace(share=minimum_jerk(prepared) * (1.0 - gone)) for hand in self._goals)
         if phase < keys["ready"]:
             self._before = phase
             return MotionPose(self._prepared(prepared, moment.body, expressivity))
@@ -202,9 +198,9 @@ class PointingMotionUnit(MotionUnit):
             self._arrive()
         return MotionPose(self._aimed, 1.0 - gone)
 
-    def _hands(self, part: float) -> tuple[HandGoal, ...]:
-        """Return where the wrists are to be, for a share of the lean of the trunk."""
-        return tuple(HandGoal(side, place, part) for side, place in self._wrists if place is not None)
+    def _hand_goals(self, target: Vec3) -> tuple[HandGoal, ...]:
+        """Return where hands are to be that go to a target."""
+        return tuple(arm.goal(target) for arm in self._arms if isinstance(arm, TouchingArm))
 
     def _arrive(self) -> None:
         """Note that the hands have arrived, if they have; a motion that is broken off on the way jumps to its relax."""
@@ -225,10 +221,13 @@ class PointingMotionUnit(MotionUnit):
         return on_way(arms, turned, way, body)
 
     def _aim(self, body: Body, expressivity: Expressivity, time: GlobalTime | None = None) -> list[ArmPose]:
-        target = self._target(time)
-        if self._facing is not None:
-            target = self._facing.turned(target)
+        target = self._place(time)
         return [arm.aim(body, target, expressivity.spatial_extent) for arm in self._arms]
+
+    def _place(self, time: GlobalTime | None) -> Vec3:
+        """Return the place of the target at a time, in the figure's frame after its turn, m."""
+        target = self._target(time)
+        return target if self._facing is None else self._facing.turned(target)
 
     def _missed(self, aims: Sequence[ArmPose]) -> Fault | None:
         for arm, aim in zip(self._arms, aims, strict=True):

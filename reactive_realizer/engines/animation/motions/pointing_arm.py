@@ -109,12 +109,10 @@ class ArmPose(NamedTuple):
     Attributes:
         rotations: of the arm and its fingers, local to their parents.
         fault: why the finger's line misses the target, None if it does not.
-        wrist: where the wrist is to be, in the figure's frame, m; None if it may be anywhere.
     """
 
     rotations: dict[str, Quat]
     fault: str | None
-    wrist: Vec3 | None = None
 
 
 def hand_of(side: str) -> str:

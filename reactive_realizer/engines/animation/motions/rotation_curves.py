@@ -12,6 +12,7 @@ from reactive_realizer.embodiment.quaternion import (
     from_rotation_vector,
     multiply,
     power,
+    rotation_vector,
     slerp,
 )
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale
@@ -125,15 +126,21 @@ class GrowingArcs:
     def __init__(self) -> None:
         self._turns: dict[str, Quat] = {}
 
-    def __call__(self, joint: str, start: Quat, goal: Quat, done: float) -> Quat:
-        """Return the rotation of a joint after a share of its arc."""
+    def way(self, joint: str, start: Quat, goal: Quat) -> Vec3:
+        """Return the arc of a joint as a rotation vector, rad."""
         turn = difference(start, goal)
         last = self._turns.get(joint, IDENTITY)
         if turn[0] * last[0] + turn[1] * last[1] + turn[2] * last[2] + turn[3] * last[3] < 0.0:
             turn = (-turn[0], -turn[1], -turn[2], -turn[3])
         self._turns[joint] = turn
         if turn[0] >= 0.0:
-            return slerp(start, goal, done)
+            return rotation_vector(turn)
         sine = math.sqrt(turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3])
-        angle = 2.0 * math.atan2(sine, turn[0])
-        return multiply(start, from_rotation_vector(scale((turn[1], turn[2], turn[3]), done * angle / sine)))
+        return scale((turn[1], turn[2], turn[3]), 2.0 * math.atan2(sine, turn[0]) / sine)
+
+    def __call__(self, joint: str, start: Quat, goal: Quat, done: float) -> Quat:
+        """Return the rotation of a joint after a share of its arc."""
+        way = self.way(joint, start, goal)
+        if self._turns[joint][0] >= 0.0:
+            return slerp(start, goal, done)
+        return multiply(start, from_rotation_vector(scale(way, done)))

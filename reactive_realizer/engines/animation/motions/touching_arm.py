@@ -7,6 +7,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, rotate
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, SolvedArm
+from reactive_realizer.engines.animation.leaning import HandGoal
 from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, hand_of
 
 _NEEDED = ("shoulder", "elbow", "wrist")
@@ -66,7 +67,11 @@ class TouchingArm:
             hand = add(hand, scale(turned, _DAMPING))
             solved = self._with_wrist_at(subtract(goal, hand), body)
         fault = f"it is {solved.missing:.2f} m too far away" if solved.missing > _NEAR else None
-        return ArmPose({**solved.rotations, **self._fingers}, fault, solved.place)
+        return ArmPose({**solved.rotations, **self._fingers}, fault)
+
+    def goal(self, target: Vec3) -> HandGoal:
+        """Return the goal of the hand for a target in the figure's frame, m."""
+        return HandGoal(self.side, target, ArmGoals(self.side, None, self._tip).hand_length(self.skeleton, IDENTITY))
 
     def _with_wrist_at(self, place: Vec3, body: Body) -> SolvedArm:
         return ArmGoals(self.side, place).solve(body, IDENTITY)
