@@ -207,17 +207,21 @@ the default is the first free one, such as `activate1`.
 _DRAFTS = """
 ## Documents without a namespace
 
-Documents without a namespace are read as [drafts of BML](dialects.md#drafts-of-bml): that of van Welbergen's thesis,
-the Vienna draft, or what Greta and EMBOTS write. One tolerant reader accepts everything above and the different
-spellings of the drafts. It does not guess: anything outside this table causes a warning.
+Documents without a namespace, or in `http://www.mindmakers.org/projects/BML` (Greta), are read as [drafts of
+BML](dialects.md#drafts-of-bml): that of van Welbergen's thesis, the Vienna draft, or what Greta and EMBOTS write. One
+tolerant reader accepts everything above and the different spellings of the drafts. It does not guess: anything outside
+this table causes a warning.
 
 | draft | read as |
 |---|---|
 | `bml scheduling="append"` | `composition` |
-| `bml character="..."`, `bml agent="..."` | `characterId` |
+| `bml character="..."`, `bml agent="..."` | `characterId`; in a scene without `Greta`, its first character |
+| `bml composition="blend"` | `MERGE` |
+| `bml reaction_type="NONE"`, `reaction_duration="NONE"`, `social_attitude="neutral"` | ignored |
+| `start="-0.5"` | `start="0"` |
 | `bml` and behaviors without `id` | an `id` such as `document1`, `head1` |
 | `head action="ROTATION" rotation="NOD"`, `head type="NOD"` | `lexeme`; a rotation X is NOD, Y is SHAKE, Z is TILT |
-| `head lexeme="Down_Aside_Right"` | `DOWN_RIGHT` |
+| `head lexeme="Down_Aside_Right"` | `DOWN_RIGHT`, and the [reference](binding.md#gestures-of-greta) as written |
 | `head repeats` | `repetition`; a part of one is 1 |
 | `gesture type="BEAT"`, `type="LEXICALIZED" lexeme="..."` | `lexeme` |
 | `gesture type="POINT" target="..."` | `pointing` |
@@ -234,7 +238,7 @@ spellings of the drafts. It does not guess: anything outside this table causes a
 | `speech ref="..."` | a [recording](audio.md#recorded-speech) |
 | `speech language`, `voice`, `type`, and points of gestures | ignored: the voice of the character speaks |
 | `<pitchaccent>`, `<boundary>` in a `speech` | [SSML](voices.md#ssml): emphasis on the words, a break |
-| `<reference>beat=Circle</reference>` in a description | the `lexeme`, if there is no other |
+| `<reference>beat=Circle</reference>` in a description | the `lexeme`, if there is no other, and the reference |
 | `<param name="..." value="..."/>` in a behavior | [`bmlt:parameter`](#parameter-of-any-behavior-of-bmlt) |
 | `description level="..."`, or without `priority` | `priority`, or 0 |
 | `<lips>`, `<curves>` | left out with one warning: the lips follow the sound |
@@ -242,7 +246,7 @@ spellings of the drafts. It does not guess: anything outside this table causes a
 | `event message="NAME content" stroke="..."` | `bmla:emit event="NAME" start="..."` with the content |
 | other elements and attributes of SmartBody | [see there](dialects.md#smartbody) |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
-| names of elements in capital letters, or of Greta's namespace | in lowercase, without a namespace |
+| names of elements in capital letters, or of Greta's namespaces | in lowercase, without a namespace |
 
 A `gaze` or `posture` without a constraint on its end [persists](semantics.md#persistent-behaviors-and-shifts).
 A reference to a behavior of another block requires `allowexternalrefs="true"`.

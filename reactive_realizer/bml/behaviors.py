@@ -162,6 +162,10 @@ class Gesture(Behavior):
     mode: Mode | None = field(default=None, metadata=attribute(Enumeration(Mode)))
 
 
+REFERENCE: Final = (OWN, "reference")
+"""The attribute of a gesture, a head movement or a posture with its name in a library of motions; its lexeme is a word
+for whoever has no such library."""
+
 REACH: Final = (OWN, "reach")
 """The attribute of a pointing whose hand goes to its target; a word of `Reach`."""
 

@@ -15,8 +15,10 @@ from reactive_realizer.errors import Fault
 _ACT: Final = "act"
 _WRAPPERS: Final = frozenset({"fml-apml", _ACT})
 """Elements around blocks: of Greta, with its intentions (FML) beside them, and of SmartBody."""
-_GRETA: Final = "gretaNameSpace"
-"""The namespace in which Greta writes its additions to BML."""
+_DRAFTS: Final = frozenset(
+    {"http://www.mindmakers.org/projects/BML", "gretaNameSpace", "GretaNameSpace", "VIBNameSpace"}
+)
+"""The namespaces in which Greta writes its draft of BML, and what it adds to it."""
 _SMARTBODY, _SBM = "{http://ict.usc.edu}", f"{{{SBM}}}"
 """The namespace that components of the Virtual Human Toolkit declare for SmartBody's additions, and ours for them."""
 _PARTICIPANT: Final = "participant"
@@ -27,9 +29,9 @@ _CAST: Final = f"{{{CAST[0]}}}{CAST[1]}"
 
 def rename_elements(block: Tree) -> None:
     """Rewrite the names of a draft, in place: those in capital letters, and in the namespaces of other systems."""
-    if not namespace_of(block):
+    if namespace_of(block) in {"", *_DRAFTS}:
         for each in block.iter("*"):
-            if namespace_of(each) == _GRETA:
+            if namespace_of(each) in _DRAFTS:
                 each.tag = name_of(each)
             if each.tag.isupper():  # EMBOTS
                 each.tag = each.tag.lower()

@@ -10,12 +10,15 @@ from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Final
 
+from reactive_realizer.bml.behaviors import REFERENCE
+from reactive_realizer.bml.block import CAST
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.draft_speech import modernize_speech
 from reactive_realizer.bml.faults import UnknownWord
 from reactive_realizer.bml.names import BMLA, BMLT
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, name_of, stray_text_of
+from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault, RealizerError
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
@@ -32,17 +35,31 @@ _PART: Final = re.compile(r"0?\.[0-9]+")
 _SIDED: Final = re.compile("([0-9]+)_(left|right|both)", re.IGNORECASE)
 _AHEAD: Final = "viewer"
 """The target of a gaze that names none."""
+_BEFORE: Final = re.compile(r"-[0-9]*\.?[0-9]+")
+"""A start before that of the block, which Greta writes for what accompanies the first word."""
+_WRITTEN_BY_GRETA: Final = "Greta"
+_BLEND: Final = "blend"
+_UNSET: Final = {"reaction_type": "none", "reaction_duration": "none", "social_attitude": "neutral"}
+"""Attributes of Greta's blocks -> the value that asks for nothing."""
 _FACES: Final = {"FACS": "faceFacs", "LEXICALIZED": "faceLexeme"}
 
 
 def modernize_block(tree: Tree) -> None:
     """Rewrites the attributes of a block, or of a use of a procedure, as BML 1.0 and BMLA, in place.
 
-    ``scheduling`` is the composition, and ``character`` (Greta) and ``agent`` (EMBOTS) name the character.
+    ``scheduling`` is the composition, and ``character`` (Greta) and ``agent`` (EMBOTS) name the character. Greta writes
+    its own name for any character: the first one of a scene stands in for that.
     """
     _rename_points(tree)
+    if tree.get("character") == _WRITTEN_BY_GRETA:
+        tree.set(f"{{{CAST[0]}}}{CAST[1]}", _take(tree, "character"))
     for name in ("character", "agent"):
         _rename(tree, name, "characterId")
+    if tree.get("composition", "").lower() == _BLEND:
+        tree.set("composition", Composition.MERGE)
+    for name in _UNSET:
+        if tree.get(name, "").lower() == _UNSET[name]:
+            del tree.attrib[name]
     if "scheduling" in tree.attrib and "composition" not in tree.attrib:
         tree.set("composition", str(tree.attrib.pop("scheduling")))
 
@@ -54,6 +71,8 @@ def modernize(tree: Tree, source: BlockSource) -> list[Fault]:
         RealizerError: ``bad-attribute``: BML 1.0 has no equivalent.
     """
     _rename_points(tree)
+    if _BEFORE.fullmatch(tree.get("start", "").strip()):
+        tree.set("start", "0")
     for parameter in children_of(tree, "param"):
         parameter.tag = f"{{{BMLT}}}{PARAMETER}"
     for description in children_of(tree, "description"):
@@ -74,7 +93,9 @@ def _head(tree: Tree, source: BlockSource) -> None:
     _rename(tree, "type", "lexeme")
     _name_by_reference(tree)
     if "lexeme" in tree.attrib:
-        tree.set("lexeme", _direction(tree.get("lexeme", "")))
+        lexeme = tree.get("lexeme", "")
+        _refer(tree, lexeme, _direction(lexeme))
+        tree.set("lexeme", _direction(lexeme))
     _rename(tree, "repeats", "repetition")
     if _PART.fullmatch(tree.get("repetition", "")):
         tree.set("repetition", "1")  # of SmartBody: a part of a nod
@@ -127,11 +148,24 @@ def _split_side(tree: Tree) -> None:
 
 
 def _name_by_reference(tree: Tree) -> None:
-    """Takes the word of a behavior from the reference in its description (Greta), such as ``beat=Circle``."""
-    references = (each.text or "" for each in tree.iterfind("description/reference"))
-    words = (reference.rpartition("=")[2].strip() for reference in references)
-    if "lexeme" not in tree.attrib and (word := next(filter(None, words), "")):
+    """Takes the word of a behavior from the reference in its description (Greta), such as ``beat=Circle``.
+
+    Beside a lexeme, it is a reference: of several movements with this lexeme, it selects one.
+    """
+    references = ((each.text or "").strip() for each in tree.iterfind("description/reference"))
+    reference = next(filter(None, references), "")
+    word = reference.rpartition("=")[2].strip()
+    if word and "lexeme" not in tree.attrib:
         tree.set("lexeme", word)
+    if word:
+        _refer(tree, reference, tree.get("lexeme", ""))
+
+
+def _refer(tree: Tree, reference: str, lexeme: str) -> None:
+    """Writes a reference that says more than the lexeme, unless there is one."""
+    name = f"{{{REFERENCE[0]}}}{REFERENCE[1]}"
+    if reference.lower() != lexeme.lower() and name not in tree.attrib:
+        tree.set(name, reference)
 
 
 def _part_of_body(tree: Tree, source: BlockSource) -> None:
@@ -142,7 +176,9 @@ def _part_of_body(tree: Tree, source: BlockSource) -> None:
     tree.tag = "posture"
     lexeme = _take(tree, "lexeme")
     if lexeme:
-        source.insert(tree, "pose", {"part": part, "lexeme": _LEANINGS.get(lexeme.upper(), lexeme)})
+        known = _LEANINGS.get(lexeme.upper(), lexeme)
+        _refer(tree, lexeme, known)
+        source.insert(tree, "pose", {"part": part, "lexeme": known})
 
 
 def _posture(tree: Tree, source: BlockSource) -> None:

@@ -26,6 +26,9 @@ HUMAN = '[character.alice]\navatar = "avatars/female.glb"\nidle = 0\nbindings = 
 HEADS = """<HeadGestures>
 <head id="Nod_Deep" lexeme="NOD">
   <KeyPoint type="strokeEnd"><SagittalTilt direction="Forward" min="0.1" max="0.3"/></KeyPoint></head>
+<head id="Nod_Slight" lexeme="NOD">
+  <KeyPoint type="strokeEnd"><SagittalTilt direction="Forward" min="0.1" max="0.1"/></KeyPoint></head>
+<head id="Aside_Down_Left"><KeyPoint><LateralRoll direction="Leftward" min="0.1" max="0.1"/></KeyPoint></head>
 <head id="No" lexeme="SHAKE">
   <KeyPoint type="strokeStart"><VerticalTorsion direction="Leftward" min="0.1" max="0.1"/></KeyPoint>
   <KeyPoint type="strokeEnd"><VerticalTorsion direction="Rightward" min="0.1" max="0.1"/></KeyPoint></head>
@@ -100,6 +103,22 @@ async def test_a_pose_of_the_head_is_kept_as_long_as_there_is_time(libraries: Op
         assert at(pilot, turned, point) == pytest.approx((0.0, 0.0, -15.0), abs=0.5)
 
 
+async def test_a_reference_selects_one_of_several_movements_with_a_lexeme(libraries: Open) -> None:
+    description = '<description type="gretabml"><reference>{}</reference></description>'
+    highest: list[float] = []
+    for name in ("Unknown", "Nod_Slight"):
+        nod = f'<head id="g" lexeme="NOD" amount="1">{description.format(name)}</head>'
+        _, turned = await turns(libraries, nod)
+        highest.append(turned[:, 0].max())
+    assert highest == pytest.approx([15.0, 5.0], abs=1.0)
+
+
+async def test_a_word_that_drafts_rewrite_names_its_movement_as_written(libraries: Open) -> None:
+    pilot, turned = await turns(libraries, '<head id="g" lexeme="Aside_Down_Left" start="0" end="3"/>')
+    assert pilot.feedback.warnings == []
+    assert at(pilot, turned, "ready") == pytest.approx((0.0, 0.0, -6.0), abs=0.5)
+
+
 async def test_each_stroke_of_a_repeated_movement_is_reported_where_the_head_is_down(libraries: Open) -> None:
     pilot, turned = await turns(libraries, '<head id="g" lexeme="NOD" amount="1" repetition="3"/>')
     strokes = [at(pilot, turned, f"stroke:{number}")[0] for number in (1, 2, 3)]
@@ -139,6 +158,6 @@ async def test_movements_that_the_libraries_lack_are_those_of_the_package(librar
 async def test_what_cannot_be_played_is_told_with_its_line_and_the_rest_plays(libraries: Open) -> None:
     pilot, turned = await turns(libraries, '<head id="g" lexeme="Odd"/><head id="s" lexeme="Still" start="g:end"/>')
     told = {message.id: message.text for message in pilot.feedback.of("warningFeedback")}
-    assert "HeadGestures.xml, line 8, <LateralRoll>: direction='Forward': known are RIGHTWARD, LEFTWARD" in told["b:g"]
+    assert "HeadGestures.xml, line 11, <LateralRoll>: direction='Forward': known are RIGHTWARD, LEFTWARD" in told["b:g"]
     assert "Still has no points" in told["b:s"]
     assert at(pilot, turned, "stroke") == pytest.approx((-10.0, 0.0, 0.0), abs=0.5)

@@ -6,6 +6,7 @@ import pytest
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import (
+    REFERENCE,
     Face,
     FaceFacs,
     FaceLexeme,
@@ -313,6 +314,41 @@ def test_a_number_after_the_id_of_a_speech_is_the_name_of_its_mark() -> None:
 
 def test_a_block_may_name_its_character_as_greta_and_embots_do() -> None:
     assert block("", 'character="alice"').character == block("", 'agent="alice"').character == "alice"
+
+
+GRETA = "http://www.mindmakers.org/projects/BML"
+
+
+def test_a_document_in_the_namespace_of_greta_is_a_draft() -> None:
+    unset = 'reaction_type="NONE" reaction_duration="NONE" social_attitude="neutral"'
+    speech = '<speech xmlns="" id="s" start="-0.5"><tm id="t1"/>Hello</speech>'
+    torso = '<v:torso xmlns:v="VIBNameSpace" id="t" lexeme="forward" start="s:t1"/>'
+    (parsed,) = parse(
+        f'<bml xmlns="{GRETA}" id="b" character="Greta" composition="blend" {unset}>{speech}{torso}</bml>', Limits()
+    )
+    assert not parsed.problems
+    assert parsed.block is not None
+    assert parsed.block.composition is Composition.MERGE
+    assert parsed.block.character is None
+    assert [parsed.block.played_by(cast) for cast in (["alice", "Greta"], ["alice"])] == ["Greta", "alice"]
+    assert [type(each) for each in parsed.block.behaviors] == [Speech, Posture]
+    assert parsed.block.behaviors[0].syncs["start"].offset == 0.0
+
+
+def test_a_reference_in_a_description_says_more_than_the_lexeme() -> None:
+    def referred(element: str, attributes: str, reference: str) -> str | None:
+        description = f'<description type="gretabml"><reference>{reference}</reference></description>'
+        (behavior,) = block(f'<{element} id="x" {attributes}>{description if reference else ""}</{element}>').behaviors
+        return behavior.extensions.get(REFERENCE)
+
+    assert referred("head", 'lexeme="NOD"', "Nod_Big") == "Nod_Big"
+    assert referred("gesture", 'lexeme="Circle"', "beat=Circle") == "beat=Circle"
+    assert referred("gesture", "", "beat=Circle") == "beat=Circle"
+    assert referred("head", 'lexeme="Down_Aside_Right"', "") == "Down_Aside_Right"
+    assert referred("head", 'lexeme="Down_Aside_Right"', "DOWN_ASIDE_RIGHT") == "Down_Aside_Right"
+    assert referred("torso", 'lexeme="forward"', "") == "forward"
+    assert referred("head", 'lexeme="NOD"', "nod") is None
+    assert referred("torso", 'lexeme="BodyLean"', "BodyLean") is None
 
 
 DROPPED = {

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import REACH, Head
+from reactive_realizer.bml.behaviors import REACH, REFERENCE, Head
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.engine.faults import TwoPlugins
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates
@@ -114,7 +114,7 @@ class MotionLibrary:
         extensions: namespaced attributes that motions use.
     """
 
-    extensions = frozenset({DYNAMIC, REACH})
+    extensions = frozenset({DYNAMIC, REACH, REFERENCE})
 
     def __init__(self, binding: GestureBinding, context: MakerContext, plugins: PluginMakers) -> None:
         self.binding = binding

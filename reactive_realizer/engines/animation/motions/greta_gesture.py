@@ -14,14 +14,14 @@ from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.quaternion import rotate, slerp
 from reactive_realizer.embodiment.vector import ZERO, add, distance, scale, subtract
 from reactive_realizer.engines.animation.easing import minimum_jerk
-from reactive_realizer.engines.animation.faults import NoFile, NoGoals
+from reactive_realizer.engines.animation.faults import NoGoals
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, Direction, hand_axes
 from reactive_realizer.engines.animation.key_poses.solved_pose import SeveralPoses, SolvedPose
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
-from reactive_realizer.engines.animation.motion_unit import NAME
 from reactive_realizer.engines.animation.motions.greta_hands import GretaFigure, HandState
 from reactive_realizer.engines.animation.motions.key_pose_gesture import KeyPoseGesture, posed
 from reactive_realizer.engines.animation.motions.key_poses import Key
+from reactive_realizer.engines.animation.motions.library_names import from_library
 from reactive_realizer.engines.animation.motions.reaching import reach
 from reactive_realizer.errors import RealizerError
 
@@ -54,16 +54,13 @@ class GretaGestureMaker:
         """
         behavior, context = request.behavior, self._context
         gestuary = Gestuary.read(context.asset(request.file or f"**/{_GESTUARY}"))
-        name = request.parameters.get(NAME) or getattr(behavior, "lexeme", None)
-        if name is None:
-            raise RealizerError(NoFile(element=behavior.name))
-        gesture = gestuary.gesture(name)
+        gesture = from_library(request, gestuary.gesture)
         phases = with_hands(gesture.phases, behavior.mode if isinstance(behavior, Gesture) else None)
         figure = GretaFigure(context, gestuary.file)
         hands = [hand for side in SIDES if (hand := _Hand(side, phases, figure)).states]
         notes = tuple({fault.sentence: fault for fault in (*gesture.faults, *figure.notes)}.values())
         if not any(state.asks for hand in hands for state in hand.states.values()):
-            reasons = tuple(fault.sentence for fault in notes) or (f"{name} has no phases in {gestuary.file}",)
+            reasons = tuple(fault.sentence for fault in notes) or (f"{gesture.id} has no phases in {gestuary.file}",)
             raise RealizerError(notes[0] if len(notes) == 1 else NoGoals(reasons=reasons))
         motion = _motion(behavior.id, hands, context.rest.body, behavior.location)
         motion.notes = notes

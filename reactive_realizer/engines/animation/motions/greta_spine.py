@@ -10,16 +10,17 @@ from typing import Final, NamedTuple
 from reactive_realizer.binding.spec_reader import finite_numbers
 from reactive_realizer.binding.spine_library import SpineLibrary, SpineMovement, SpinePoint, sequence
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Head, Posture
+from reactive_realizer.bml.behaviors import Head
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, multiply
 from reactive_realizer.embodiment.spine import folded_spine
 from reactive_realizer.embodiment.vector import ZERO, Vec3, length, scale, subtract
 from reactive_realizer.engines.animation.expression.syntax import Constant, Variable
-from reactive_realizer.engines.animation.faults import NoFile, NoGoals
+from reactive_realizer.engines.animation.faults import NoGoals
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
-from reactive_realizer.engines.animation.motion_unit import AMOUNT, NAME
+from reactive_realizer.engines.animation.motion_unit import AMOUNT
+from reactive_realizer.engines.animation.motions.library_names import from_library
 from reactive_realizer.engines.animation.motions.procedural import ProceduralMotionUnit
 from reactive_realizer.engines.animation.procedural.procedural_animation import ProceduralAnimation
 from reactive_realizer.engines.animation.procedural.spine_track import SpineKey, SpineTrack
@@ -77,28 +78,12 @@ class GretaSpineMaker:
         """
         behavior, context = request.behavior, self._context
         path = context.asset(request.file or f"**/{_PARTS[self._part].file}")
-        movement = SpineLibrary.read(path, self._part).movement(_name(request))
+        movement = from_library(request, SpineLibrary.read(path, self._part).movement)
         repetition = behavior.repetition if isinstance(behavior, Head) else 1
         amount = finite_numbers(request.parameters).get(AMOUNT, _amount(behavior))
         motion = _planned(movement, self._part, repetition, amount, context.rest.body).copy()
         motion.notes = movement.faults
         return motion
-
-
-def _name(request: MotionRequest) -> str:
-    """Return the name of a movement: a parameter, or the lexeme of a behavior or of a pose of a posture.
-
-    Raises:
-        RealizerError: "no-file": there is none.
-    """
-    behavior = request.behavior
-    lexeme = getattr(behavior, "lexeme", None)
-    if isinstance(behavior, Posture) and behavior.poses:
-        lexeme = behavior.poses[0].lexeme
-    name = request.parameters.get(NAME) or lexeme
-    if name is None:
-        raise RealizerError(NoFile(element=behavior.name))
-    return name
 
 
 def _amount(behavior: Behavior) -> float:
