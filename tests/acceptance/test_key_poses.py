@@ -9,6 +9,7 @@ from reactive_realizer.bml.names import BML
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle, difference, rotate
 from reactive_realizer.embodiment.vector import Vec3, add, distance, dot, subtract, unit
+from reactive_realizer.engines.animation.key_poses.elbow import flexion
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 FRAMES = 50
@@ -224,6 +225,21 @@ async def test_a_hand_passes_key_poses_on_a_curve_without_stopping_and_a_tension
     assert slowest[0] > 0.3
     assert slowest[1] < 0.1
     assert bumpiest[0] < 0.5 * bumpiest[1]
+
+
+@pytest.mark.parametrize("seed", range(6))
+async def test_elbows_do_not_bend_backward_on_a_curve(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    lows, highs = (-0.45, -0.2, 0.1), (0.1, 0.75, 0.6)
+    poses_ = [pose(0.7 + 0.5 * number, place(tuple(random.uniform(lows, highs)))) for number in range(5)]
+    wide = 'tension="-1" bias="{}"'
+    curved = [each.replace("time", f"{wide.format(random.choice((-1, 0, 1)))} time") for each in poses_]
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "RIGHT_ARM", *curved)))
+        await pilot.advance(3)
+        bends = [flexion("r", body.rotation("r_elbow"), body.skeleton) for body in pilot.bodies()]
+        assert min(bends) > -math.radians(1.0)
 
 
 async def test_with_bias_a_hand_passes_its_place_before_it_turns_back() -> None:

@@ -11,7 +11,7 @@ from reactive_realizer.bml.key_poses import KeyPose, KeyPoses
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.time_warps import warped
 from reactive_realizer.bml.vocabulary import BodyGroup
-from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import HEAD, SIDES, TRUNK
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, multiply
@@ -20,6 +20,7 @@ from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGoals, NotReachable, WrongElement
+from reactive_realizer.engines.animation.key_poses.elbow import kept_flexed
 from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, SolvedRotations
 from reactive_realizer.engines.animation.leaning import HandGoal, Reached
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
@@ -155,13 +156,7 @@ class KeyPosesMotionUnit(MotionUnit):
         key, here, there = self._keys[number], at(number - 1).rotations, at(number).rotations
         leaving, arriving = self._velocities(number - 1, at, "leaving"), self._velocities(number, at, "arriving")
         if leaving or arriving:
-            ways = self._ways(number, at)
-            turned = {
-                joint: multiply(
-                    turn, turn_on_way(ways[joint], done, leaving.get(joint, ZERO), arriving.get(joint, ZERO))
-                )
-                for joint, turn in here.items()
-            }
+            turned = self._on_curve(number, done, at, (leaving, arriving), body.skeleton)
         else:
             arcs = self._arcs[number]
             turned = {joint: arcs(joint, here[joint], goal, done) for joint, goal in there.items()}
@@ -173,6 +168,33 @@ class KeyPosesMotionUnit(MotionUnit):
         curvature = 1.0 if leaving else expressivity.curvature
         way = Way(here, there, done, curvature, expressivity.arriving(time))
         return on_way([CarriedArm.of(body.skeleton, side) for side in sides], turned, way, body)
+
+    def _on_curve(
+        self,
+        number: int,
+        done: float,
+        at: Poses,
+        velocities: tuple[Mapping[str, Vec3], Mapping[str, Vec3]],
+        skeleton: Skeleton,
+    ) -> dict[str, Quat]:
+        """Return the rotations on a curve to a key pose, after a share of its time.
+
+        Args:
+            number: of the key pose.
+            done: share, 0 to 1.
+            at: returns the key poses.
+            velocities: of joints at the beginning and at the end; others rest there.
+            skeleton: of the figure.
+        """
+        here, there, ways = at(number - 1).rotations, at(number).rotations, self._ways(number, at)
+        turned: dict[str, Quat] = {}
+        for joint, turn in here.items():
+            leaving, arriving = (known.get(joint, ZERO) for known in velocities)
+            turned[joint] = multiply(turn, turn_on_way(ways[joint], done, leaving, arriving))
+        for side in SIDES:
+            if (elbow := f"{side}_elbow") in turned:
+                turned[elbow] = kept_flexed(side, turned[elbow], (here[elbow], there[elbow]), skeleton)
+        return turned
 
     def _velocities(self, number: int, at: Poses, side: Side) -> Mapping[str, Vec3]:
         """Return the velocities of the joints on one side of a key pose (`Corner`); none where the motion stops."""
