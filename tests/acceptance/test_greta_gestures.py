@@ -12,6 +12,7 @@ from reactive_realizer.bml.vocabulary import BodyAxis
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle, rotate
 from reactive_realizer.embodiment.vector import Vec3, distance, subtract
+from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.engines.animation.key_poses.arm_pose import hand_axes
 from reactive_realizer.engines.animation.key_poses.gesture_space import arm_length
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
@@ -23,6 +24,7 @@ BINDING = """<gesturebinding><MotionUnitSpec type="gesture">
   <MotionUnit type="GretaGesture" file="gestuary.xml"/>
 </MotionUnitSpec></gesturebinding>"""
 HUMAN = '[character.alice]\navatar = "avatars/female.glb"\nidle = 0\nbindings = { gesture = "lexicon.xml" }\n'
+GESTUARY = "gestuary.xml"
 POINTS = ("start", "ready", "strokeStart", "stroke", "strokeEnd", "relax", "end")
 
 Open = Callable[..., AbstractAsyncContextManager[RealizerPilot]]
@@ -248,6 +250,22 @@ async def test_entries_of_the_package_play_what_the_gestuary_lacks(gestuary: Ope
         pilot.block("b", '<gesture id="g" lexeme="BEAT"/>')
         await pilot.advance(3)
     assert pilot.feedback.warnings == []
+
+
+async def test_the_lexicon_lists_the_gestures_of_the_file(gestuary: Open) -> None:
+    async with gestuary(SWEEP, BOTH) as pilot:
+        entries = lexicon_of(pilot.realizer.characters["alice"].engines)
+    listed = [(each.element, each.lexeme, each.sync_points, each.problem) for each in entries if each.file == GESTUARY]
+    assert listed == [("gesture", name, POINTS, None) for name in ("Sweep", "Both")]
+
+
+async def test_the_lexicon_tells_what_is_wrong_with_the_file(gestuary: Open, tmp_path: Path) -> None:
+    async with gestuary(SWEEP) as pilot:
+        (tmp_path / GESTUARY).write_text("<gestures/>", encoding="utf-8")
+        entries = lexicon_of(pilot.realizer.characters["alice"].engines)
+    (problem,) = [each.problem for each in entries if each.file == GESTUARY]
+    assert problem is not None
+    assert "the file should begin with <gestuary>" in problem
 
 
 async def test_drafts_name_gestures_in_the_description_of_greta(gestuary: Open) -> None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.quaternion import conjugate, multiply, rotation_vector
+from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 FRAMES = 50
@@ -101,6 +102,14 @@ async def test_a_pose_of_the_head_is_kept_as_long_as_there_is_time(libraries: Op
     assert pilot.feedback.time("b:g:relax") - pilot.feedback.time("b:g:ready") > 1.0
     for point in ("ready", "relax"):
         assert at(pilot, turned, point) == pytest.approx((0.0, 0.0, -15.0), abs=0.5)
+
+
+async def test_the_lexicon_lists_the_movements_of_both_files(libraries: Open) -> None:
+    async with libraries() as pilot:
+        entries = lexicon_of(pilot.realizer.characters["alice"].engines)
+    listed = [(each.element, each.lexeme) for each in entries if each.file in ("HeadGestures.xml", "TorsoGestures.xml")]
+    heads = ("Nod_Deep", "Nod_Slight", "Aside_Down_Left", "No", "Aslant", "Odd", "Still")
+    assert listed == [*(("head", name) for name in heads), ("posture", "Bow"), ("posture", "Bend")]
 
 
 async def test_a_reference_selects_one_of_several_movements_with_a_lexeme(libraries: Open) -> None:

@@ -13,7 +13,7 @@ from reactive_realizer.bml.names import BML, BMLT, MURML
 from reactive_realizer.engine.lexicon import Changeable, LexiconEntry
 from reactive_realizer.engines.animation.animation_unit import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
-from reactive_realizer.engines.animation.motion_unit import EXPRESSIVITY_RANGES
+from reactive_realizer.engines.animation.motion_unit import EXPRESSIVITY_RANGES, GESTURE_POINTS
 from reactive_realizer.engines.animation.posture.posture_library import LEXEMES
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
@@ -61,15 +61,24 @@ def binding_lexicon(library: MotionLibrary, target: str) -> Iterator[LexiconEntr
     """Yield the entries of the binding, in order, and the poses of postures.
 
     Entries that need more from a behavior than a target, such as those that play any file, are left out. So are the
-    parameters of expressivity, which every gesture and pointing has.
+    parameters of expressivity, which every gesture and pointing has. An entry for a library yields the names in it,
+    without their durations.
 
     Args:
         library: creates the motions.
         target: something to look and point at.
     """
     for spec in library.binding.specs:
-        text = example_behavior(spec, target)
-        if text is not None:
+        try:
+            names = library.names(spec)
+        except RealizerError as problem:
+            yield LexiconEntry(spec.behavior, "", spec.constraints, file=spec.file, problem=problem.fault.sentence)
+            continue
+        if names is not None:
+            yield from (
+                LexiconEntry(spec.behavior, each, spec.constraints, GESTURE_POINTS, file=spec.file) for each in names
+            )
+        elif (text := example_behavior(spec, target)) is not None:
             yield _entry(spec, text, library)
     yield from (LexiconEntry("pose", lexeme) for lexeme in LEXEMES)
 

@@ -16,6 +16,7 @@ from reactive_realizer.engine.faults import TwoPlugins
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates
 from reactive_realizer.engines.animation.faults import NoMotionFor, NoUnit
 from reactive_realizer.engines.animation.motion_maker import (
+    ListingMaker,
     MakerContext,
     MotionMaker,
     MotionRequest,
@@ -30,7 +31,7 @@ from reactive_realizer.engines.animation.motion_parameters import (
     unused_behavior_parameters,
     unused_entry_parameters,
 )
-from reactive_realizer.engines.animation.motion_unit import FILE, MotionUnit
+from reactive_realizer.engines.animation.motion_unit import FILE, NAME, MotionUnit
 from reactive_realizer.engines.animation.motions.controller import ControllerMaker
 from reactive_realizer.engines.animation.motions.embr_gesture import EmbrGestureMaker
 from reactive_realizer.engines.animation.motions.gaze import DYNAMIC, GazeMaker, HeadDirectionMaker
@@ -104,6 +105,9 @@ def makers_of(context: MakerContext, plugins: PluginMakers) -> Mapping[str, Moti
 
 
 _log = logging.getLogger(__name__)
+
+LEXEME = "lexeme"
+"""The attribute with the word of a behavior."""
 
 
 class MotionLibrary:
@@ -209,6 +213,17 @@ class MotionLibrary:
         if names := unused_entry_parameters(spec, motion):
             lacks, has = listed(names), listed(motion.parameter_names)
             _log.warning("%s: the motion of this entry has no parameter %s; it has %s", spec.location, lacks, has)
+
+    def names(self, spec: UnitSpec) -> tuple[str, ...] | None:
+        """Return the lexemes that an entry for any lexeme plays, if they are those of a library; otherwise None.
+
+        Raises:
+            RealizerError: there is no such library, or it is invalid.
+        """
+        maker: object = self._makers.get(spec.unit)
+        if not isinstance(maker, ListingMaker) or LEXEME in spec.constraints or NAME in spec.defaults:
+            return None
+        return maker.names(spec.file)
 
     def candidate(self, spec: UnitSpec, behavior: Behavior, attributes: Mapping[str, str]) -> Candidate:
         """Return the motion of an entry for a behavior.

@@ -127,6 +127,19 @@ class RefreshingMaker(Protocol):
         ...
 
 
+@runtime_checkable
+class ListingMaker(Protocol):
+    """A maker of the motions of libraries, files with many of them."""
+
+    def names(self, file: str | None) -> tuple[str, ...]:
+        """Return the names of the motions of a file.
+
+        Raises:
+            RealizerError: there is no such file, or it is invalid.
+        """
+        ...
+
+
 MotionMaker = Callable[[MotionRequest], MotionUnit]
 """Makes motions of one kind for one figure.
 

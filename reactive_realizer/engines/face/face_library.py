@@ -10,7 +10,7 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.face.expressions import NoFace
 from reactive_realizer.engines.face.face_shapes import KINDS, LEXEMES, FaceParameters, FaceShapes
-from reactive_realizer.engines.face.face_timing import FaceShape
+from reactive_realizer.engines.face.face_timing import TIMING, FaceShape
 from reactive_realizer.errors import CreationFault, Fault, RealizerError
 from reactive_realizer.planunit.timing import Timing
 
@@ -70,15 +70,27 @@ class FaceLibrary:
         )
 
     def lexicon(self) -> Iterator[LexiconEntry]:
-        """The lexemes: those of the entries, then those of the table that no entry has."""
+        """The lexemes: those of the entries, then those in the libraries of others, then those of the table."""
         for lexeme, spec in reversed(self._lexemes.items()):
             try:
                 yield _entry(lexeme, spec.file, self._made(spec, spec.constraints).timing)
             except RealizerError as problem:
                 yield LexiconEntry(spec.behavior, lexeme, file=spec.file, problem=problem.fault.sentence)
+        for spec in self.binding.specs:
+            yield from self._in_library(spec)
         for lexeme in self.shapes.expressions.names:
             if lexeme not in self._lexemes:
                 yield _entry(lexeme, LEXEMES, self.shapes.expressions.face(lexeme, 1.0).timing)
+
+    def _in_library(self, spec: UnitSpec) -> Iterator[LexiconEntry]:
+        """The lexemes of an entry for all those in a file."""
+        kind = KINDS.get(spec.unit)
+        if kind is None or kind.names is None or _LEXEME in spec.constraints:
+            return
+        try:
+            yield from (_entry(lexeme, spec.file, TIMING) for lexeme in kind.names(self.shapes, spec.file))
+        except RealizerError as problem:
+            yield LexiconEntry(spec.behavior, "", file=spec.file, problem=problem.fault.sentence)
 
     def _made(self, spec: UnitSpec, attributes: Mapping[str, str]) -> FaceShape:
         kind = KINDS.get(spec.unit)

@@ -186,11 +186,21 @@ class FaceShapes:
         Raises:
             RealizerError: "no-asset", "bad-asset" or "not-in-library".
         """
-        units = frozenset(self.expressions.units)
-        library = GretaFaces.read(self.asset(parameters.file or _GRETA), units)
+        library = self._greta_faces(parameters.file)
         actions = library.face(parameters.read("lexeme", _text))
         parts = [scaled(self.expressions.unit(each.unit).weights(each.side), each.intensity) for each in actions]
         return FaceShape(scaled(limited(added(parts)), parameters.intensity))
+
+    def greta_names(self, file: str | None) -> tuple[str, ...]:
+        """The names of the expressions of a library of Greta.
+
+        Raises:
+            RealizerError: "no-asset" or "bad-asset".
+        """
+        return tuple(self._greta_faces(file).faces)
+
+    def _greta_faces(self, file: str | None) -> GretaFaces:
+        return GretaFaces.read(self.asset(file or _GRETA), frozenset(self.expressions.units))
 
     def morph(self, parameters: FaceParameters) -> FaceShape:
         """A morph target.
@@ -265,10 +275,12 @@ class FaceKind:
     Attributes:
         parameters: their names.
         make: makes the expression.
+        names: of the lexemes in a file that has many; None for other kinds.
     """
 
     parameters: tuple[str, ...]
     make: Callable[[FaceShapes, FaceParameters], FaceShape]
+    names: Callable[[FaceShapes, str | None], tuple[str, ...]] | None = None
 
 
 KINDS: Mapping[str, FaceKind] = MappingProxyType(
@@ -276,7 +288,7 @@ KINDS: Mapping[str, FaceKind] = MappingProxyType(
         "Lexeme": FaceKind(("lexeme", "intensity"), FaceShapes.lexeme),
         "AU": FaceKind(("au", "side", "intensity"), FaceShapes.action_unit),
         "FACS": FaceKind(("intensity",), FaceShapes.configuration),
-        "GretaFace": FaceKind(("lexeme", "intensity"), FaceShapes.greta),
+        "GretaFace": FaceKind(("lexeme", "intensity"), FaceShapes.greta, FaceShapes.greta_names),
         "Morph": FaceKind(("targetname", "intensity"), FaceShapes.morph),
         "FAP": FaceKind(("fap", "value", *_SELECTIONS), FaceShapes.fap),
         "Plutchik": FaceKind(("angle", "activation", "intensity"), FaceShapes.emotion),

@@ -7,6 +7,7 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.vocabulary import Side
+from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.engines.face.greta_faces import GretaAction, GretaFaces
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
@@ -75,6 +76,15 @@ async def test_an_expression_without_units_is_a_plain_face(tmp_path: Path) -> No
     pilot = await played(tmp_path, '<faceLexeme id="f" lexeme="plain"/>')
     assert pilot.feedback.warnings == []
     assert pilot.feedback.time("b:f:end") > 1.0
+
+
+async def test_the_lexicon_lists_the_expressions_of_the_file(tmp_path: Path) -> None:
+    pilot = await played(tmp_path, '<faceLexeme id="f" lexeme="plain"/>')
+    entries = lexicon_of(pilot.realizer.characters["alice"].engines)
+    assert [each.lexeme for each in entries if each.file == "faces.xml"] == ["Wry", "plain", "JOY"]
+    (tmp_path / "faces.xml").write_text("<faces/>")
+    problems = [each.problem for each in lexicon_of(pilot.realizer.characters["alice"].engines) if each.problem]
+    assert any("the file should begin with <facelibrary>" in problem for problem in problems)
 
 
 UNITS = frozenset({2, 12})

@@ -53,7 +53,7 @@ class GretaGestureMaker:
             RealizerError: there is no such file or gesture, or nothing of it can be played.
         """
         behavior, context = request.behavior, self._context
-        gestuary = Gestuary.read(context.asset(request.file or f"**/{_GESTUARY}"))
+        gestuary = self._gestuary(request.file)
         gesture = from_library(request, gestuary.gesture)
         phases = with_hands(gesture.phases, behavior.mode if isinstance(behavior, Gesture) else None)
         figure = GretaFigure(context, gestuary.file)
@@ -65,6 +65,17 @@ class GretaGestureMaker:
         motion = _motion(behavior.id, hands, context.rest.body, behavior.location)
         motion.notes = notes
         return motion
+
+    def names(self, file: str | None) -> tuple[str, ...]:
+        """Return the ids of the gestures of a file.
+
+        Raises:
+            RealizerError: there is no such file, or it is invalid.
+        """
+        return tuple(gesture.id for gesture in self._gestuary(file).gestures)
+
+    def _gestuary(self, file: str | None) -> Gestuary:
+        return Gestuary.read(self._context.asset(file or f"**/{_GESTUARY}"))
 
 
 def with_hands(phases: Sequence[Phase], mode: Mode | None) -> list[Phase]:

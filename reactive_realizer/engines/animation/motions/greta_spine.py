@@ -76,14 +76,24 @@ class GretaSpineMaker:
         Raises:
             RealizerError: there is no such file or movement, or nothing of it can be played.
         """
-        behavior, context = request.behavior, self._context
-        path = context.asset(request.file or f"**/{_PARTS[self._part].file}")
-        movement = from_library(request, SpineLibrary.read(path, self._part).movement)
+        behavior, rest = request.behavior, self._context.rest.body
+        movement = from_library(request, self._library(request.file).movement)
         repetition = behavior.repetition if isinstance(behavior, Head) else 1
         amount = finite_numbers(request.parameters).get(AMOUNT, _amount(behavior))
-        motion = _planned(movement, self._part, repetition, amount, context.rest.body).copy()
+        motion = _planned(movement, self._part, repetition, amount, rest).copy()
         motion.notes = movement.faults
         return motion
+
+    def names(self, file: str | None) -> tuple[str, ...]:
+        """Return the ids of the movements of a file.
+
+        Raises:
+            RealizerError: there is no such file, or it is invalid.
+        """
+        return tuple(movement.id for movement in self._library(file).movements)
+
+    def _library(self, file: str | None) -> SpineLibrary:
+        return SpineLibrary.read(self._context.asset(file or f"**/{_PARTS[self._part].file}"), self._part)
 
 
 def _amount(behavior: Behavior) -> float:
