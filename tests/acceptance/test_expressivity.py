@@ -306,6 +306,20 @@ async def test_a_behavior_that_is_tied_to_a_gesture_keeps_its_point_when_the_ext
     assert pilot.feedback.time("b:n:start") == pytest.approx(planned)
 
 
+@pytest.mark.parametrize("syncs", ['start="2.2"', 'stroke="2.6"', 'start="g:end"'])
+async def test_a_gesture_that_becomes_slower_relaxes_in_time_for_the_next_one(pilot: RealizerPilot, syncs: str) -> None:
+    following = f'<gesture id="h" lexeme="BEAT" mode="RIGHT_HAND" {syncs}/>'
+    pilot.block("b", gesture("OFFER", syncs='start="0.2"') + following)
+    await pilot.advance(0.4)
+    planned = pilot.feedback.predicted("b:h:start"), pilot.feedback.predicted("b:h:stroke")
+    pilot.block("c", change("p", 'start="0"', target="b:g", parameter="temporalExtent", targetValue=1))
+    await pilot.advance(8)
+    assert pilot.feedback.warnings == []
+    times = pilot.feedback.time("b:h:start"), pilot.feedback.time("b:h:stroke")
+    assert times == pytest.approx(planned)
+    assert pilot.feedback.time("b:g:relax") <= times[0] + 0.01
+
+
 async def test_an_extent_that_changes_before_a_gesture_begins_counts_from_its_start(pilot: RealizerPilot) -> None:
     slow = await play(gesture(syncs='start="0.2"', temporalExtent=1), 7.0)
     pilot.block("b", gesture(syncs='start="1"'))

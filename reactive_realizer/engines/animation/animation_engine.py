@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Awaitable, Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from functools import reduce
+from functools import partial, reduce
 from operator import itemgetter
 from random import Random
 from types import MappingProxyType
@@ -30,7 +30,7 @@ from reactive_realizer.bml.murml.behaviors import MurmlGesture
 from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.clock.ticker import Tick
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.inertialization import CARRIED
@@ -413,7 +413,15 @@ class AnimationEngine(DefaultEngine):
     def requests(self, tick: Tick) -> tuple[MovePoints, ...]:
         """Return the moves of points: locomotion arrives at another time, or a temporal extent has changed."""
         arrivals = (move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
-        return (*arrivals, *(move for unit in self._playing() for move in unit.moves(tick.time)))
+        slowed = (move for unit in self._playing() for move in unit.moves(tick.time, partial(self._awaited_from, unit)))
+        return (*arrivals, *slowed)
+
+    def _awaited_from(self, unit: AnimationUnit) -> Time:
+        """Return the first start of a behavior that needs the limbs of a unit after its relax; None if none does."""
+        relax = unit.time("relax") if "relax" in unit.timing.points else None
+        waiting = (other for other in self.player.units if not other.begun and not other.spares(unit.resources))
+        starts = (start for other in waiting if (start := other.start_and_end[0]) is not None)
+        return min((start for start in starts if relax is not None and start > relax - RESOLUTION), default=None)
 
     def _destination(self, now: GlobalTime, playing: Sequence[AnimationUnit]) -> Goal | None:
         """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
 from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.bml.vocabulary import InterruptSpeech
-from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.quaternion import angle, difference
@@ -290,9 +290,14 @@ class AnimationUnit(PlanUnit):
         """Release the joints."""
         self._context.released(self, time)
 
-    def moves(self, now: GlobalTime) -> Iterator[MovePoints]:
-        """Yield the move of its points ahead, if its temporal extent has changed."""
-        if self.begun and not self.ends_early and (times := self._extent.times(self.points, self.keys, now)):
+    def moves(self, now: GlobalTime, until: Callable[[], Time]) -> Iterator[MovePoints]:
+        """Yield the move of its points ahead, if its temporal extent has changed.
+
+        Args:
+            now: s.
+            until: as for `LiveExtent.times`.
+        """
+        if self.begun and not self.ends_early and (times := self._extent.times(self.points, self.keys, now, until)):
             yield MovePoints(self, times, now)
 
     def layer(self, now: GlobalTime) -> Layer:

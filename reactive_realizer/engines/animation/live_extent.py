@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, MotionUnit
 from reactive_realizer.planunit.plan_unit import SyncPoint
 from reactive_realizer.reactive.graph import Cell
@@ -33,13 +33,17 @@ class LiveExtent:
         if self._cell is not None:
             self._cell.observe(lambda change: wake())
 
-    def times(self, points: Sequence[SyncPoint], keys: Mapping[str, float], now: GlobalTime) -> dict[str, GlobalTime]:
+    def times(
+        self, points: Sequence[SyncPoint], keys: Mapping[str, float], now: GlobalTime, until: Callable[[], Time]
+    ) -> dict[str, GlobalTime]:
         """Return the new times of points ahead after a change since the last call.
 
         Args:
             points: of a unit that has begun.
             keys: the phase of each of its points.
             now: s.
+            until: returns the time by which the motion relaxes, because another one waits for its limbs; None if none
+                does.
         """
         if self._cell is None or self._cell.value == self._extent:
             return {}
@@ -49,7 +53,7 @@ class LiveExtent:
         last = points[fixed].peg.value
         if last is None or not factors:
             return {}
-        old = time = GlobalTime(max(last, now))
+        begin = old = time = GlobalTime(max(last, now))
         times: dict[str, GlobalTime] = {}
         for point in points[fixed + 1 :]:
             planned = point.peg.value
@@ -57,7 +61,19 @@ class LiveExtent:
                 break
             time = GlobalTime(time + (planned - old) * factors.get(_phase(keys[point.id], keys), 1.0))
             old, times[point.id] = planned, time
-        return times
+        return _relaxed(times, begin, until())
+
+
+def _relaxed(times: Mapping[str, GlobalTime], begin: GlobalTime, until: Time) -> dict[str, GlobalTime]:
+    """Return times of points with less time before the relax, if that would be too late; what follows comes earlier."""
+    relax = times.get("relax")
+    if relax is None or until is None or relax <= until or relax <= begin:
+        return dict(times)
+    share = max(0.0, until - begin) / (relax - begin)
+    return {
+        sync: GlobalTime(begin + share * (time - begin) if time <= relax else until + time - relax)
+        for sync, time in times.items()
+    }
 
 
 def _fixed(point: SyncPoint) -> bool:
