@@ -10,7 +10,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import angle, difference, rotation_vector
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import Vec3, add, distance, scale, subtract, unit
-from reactive_realizer.engines.animation.leaning import SPINE_RANGES
+from reactive_realizer.engines.animation.spine_ik import SPINE_RANGES
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 FRAMES = 50

@@ -17,7 +17,7 @@ from reactive_realizer.embodiment.joints import LEFT_ARM, LOWER_BODY, RIGHT_ARM
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.engines.animation.leaning import HandGoal
+from reactive_realizer.engines.animation.spine_ik import HandGoal
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range
 

@@ -12,7 +12,8 @@ from reactive_realizer.embodiment.quaternion import angle, difference, rotation_
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import Vec3, add, distance, length, scale, unit
 from reactive_realizer.engines.animation.easing import smoothstep
-from reactive_realizer.engines.animation.leaning import SPINE_RANGES, HandGoal, Leaning, Reached
+from reactive_realizer.engines.animation.leaning import Leaning
+from reactive_realizer.engines.animation.spine_ik import SPINE_RANGES, HandGoal, Reached
 
 _ENDS = ("skullbase", "HumanoidRoot")
 

@@ -19,9 +19,9 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import FORWARD, ZERO, Vec3, add, cross, dot, length, rejected, subtract, unit
-from reactive_realizer.engines.animation.leaning import HandGoal
 from reactive_realizer.engines.animation.procedural.effector_track import natural_arm
 from reactive_realizer.engines.animation.procedural.tracks import parent_rotation
+from reactive_realizer.engines.animation.spine_ik import HandGoal
 
 _ROUNDS = 5
 """Repetitions after which a fingertip is at its place; the direction of the hand depends on where the wrist is."""

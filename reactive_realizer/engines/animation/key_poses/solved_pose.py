@@ -9,7 +9,7 @@ from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals
 from reactive_realizer.engines.animation.key_poses.head_pose import HeadPose
-from reactive_realizer.engines.animation.leaning import HandGoal
+from reactive_realizer.engines.animation.spine_ik import HandGoal
 
 
 class Missed(NamedTuple):

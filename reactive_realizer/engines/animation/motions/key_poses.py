@@ -22,7 +22,6 @@ from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGoals, NotReachable, WrongElement
 from reactive_realizer.engines.animation.key_poses.elbow import kept_flexed
 from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, SolvedRotations
-from reactive_realizer.engines.animation.leaning import HandGoal, Reached
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_unit import (
     Moment,
@@ -35,6 +34,7 @@ from reactive_realizer.engines.animation.motions.pose_goals import PoseGoals
 from reactive_realizer.engines.animation.motions.rotation_curves import GrowingArcs
 from reactive_realizer.engines.animation.procedural.effector_track import carried_as_shown
 from reactive_realizer.engines.animation.shortest import Profile
+from reactive_realizer.engines.animation.spine_ik import HandGoal, Reached
 from reactive_realizer.engines.animation.tcb import Corner, Side, Tcb, turn_on_way
 from reactive_realizer.errors import Fault, RealizerError
 

@@ -14,7 +14,6 @@ from reactive_realizer.embodiment.vector import UP, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NotTouched, TargetLost
-from reactive_realizer.engines.animation.leaning import HandGoal, leant
 from reactive_realizer.engines.animation.motion_maker import TargetLocator
 from reactive_realizer.engines.animation.motion_unit import (
     EXPRESSIVITY_RANGES,
@@ -34,6 +33,7 @@ from reactive_realizer.engines.animation.motions.reaching import (
 )
 from reactive_realizer.engines.animation.motions.rotation_curves import GrowingArcs
 from reactive_realizer.engines.animation.motions.touching_arm import TouchingArm
+from reactive_realizer.engines.animation.spine_ik import HandGoal, leant
 from reactive_realizer.engines.animation.walking.manner import stepping_time
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Range

@@ -7,8 +7,8 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, rotate
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, SolvedArm
-from reactive_realizer.engines.animation.leaning import HandGoal
 from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, hand_of
+from reactive_realizer.engines.animation.spine_ik import HandGoal
 
 _NEEDED = ("shoulder", "elbow", "wrist")
 _FINGERS = ("index", "middle", "ring", "pinky")
