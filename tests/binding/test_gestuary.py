@@ -84,12 +84,14 @@ def test_of_two_gestures_with_an_id_the_category_selects_one(tmp_path: Path) -> 
 
 
 def test_a_hand_keeps_what_a_phase_leaves_open(read: Read) -> None:
-    shaped = hand(f'{PLACE}<handShape value="RELAX"/>')
-    phases = read(shaped, hand('<handShape value="FORM_FIST"/>'), "", hand(PLACE, 'side="LEFT"')).gesture("Box").phases
-    right = filled(phases, "r")
-    assert [right[number].shape for number in right] == ["RELAX", "FORM_FIST", "FORM_FIST", "FORM_FIST"]
-    assert {each.place for each in right.values()} == {(0.5, 0.25, 0.95)}
-    assert list(filled(phases, "l")) == [3]
+    turned = '<wristOrientation global="true" w="1" x="0" y="0" z="0"/>'
+    relaxed, fist = hand(f'{PLACE}{turned}<handShape value="RELAX"/>'), hand('<handShape value="FORM_FIST"/>')
+    phases = read(relaxed, hand(PLACE), fist, "", hand(PLACE, 'side="LEFT"')).gesture("Box").phases
+    right = filled(phases, "r").values()
+    assert [each.shape for each in right] == ["RELAX", "RELAX", "FORM_FIST", "FORM_FIST", "FORM_FIST"]
+    assert {each.place for each in right} == {(0.5, 0.25, 0.95)}
+    assert {(each.turn, each.of_figure) for each in right} == {((1.0, 0.0, 0.0, 0.0), True)}
+    assert list(filled(phases, "l")) == [4]
 
 
 def test_a_hand_is_mirrored(read: Read) -> None:
