@@ -83,3 +83,22 @@ def test_a_file_without_a_gesture_is_refused(text: str) -> None:
     with pytest.raises(RealizerError) as refused:
         read_lexeme(text)
     assert refused.value.fault.code == "embr-no-sequence"
+
+
+def test_a_pose_with_a_bad_time_and_a_second_sequence_are_named() -> None:
+    lexeme = read_lexeme(STROKE.replace("+1000", "nan") + "\n" + HOLD)
+    assert [(note.line, note.code) for note in sorted(lexeme.notes, key=lambda note: note.line or 0)] == [
+        (21, "embr-bad-value"),
+        (48, "embr-not-realized"),
+    ]
+    assert lexeme.points == {"ready": 0.5, "strokeStart": 0.6, "strokeEnd": 1.1, "relax": 1.3}
+
+
+def test_a_file_whose_poses_all_have_a_fault_is_refused_with_the_first_one() -> None:
+    with pytest.raises(RealizerError) as refused:
+        read_lexeme(script(("ready", 500, 0, RIGHT.format(0.1).replace("rarm", "rleg"))))
+    assert (refused.value.fault.code, refused.value.fault.line) == ("embr-unknown-name", 6)
+
+
+def test_a_file_may_begin_with_a_mark_of_its_encoding() -> None:
+    assert read_lexeme(STROKE.encode("utf-8-sig")) == read_lexeme(STROKE)

@@ -4,6 +4,7 @@ import pytest
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import CAST, BehaviorBlock, Parsed
+from reactive_realizer.bml.block_writer import document
 from reactive_realizer.bml.dialects import BML_DIALECT, Dialects
 from reactive_realizer.bml.embr.reader import DIALECT, read
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
@@ -275,8 +276,46 @@ def test_a_stray_end_is_named() -> None:
 
 
 def test_a_script_of_nothing_is_refused() -> None:
-    assert [sentence for _, sentence in problems("TIME_RESET")] == ["the script has no K_POSE_SEQUENCE"]
-    assert parsed("TIME_RESET").block is None
+    assert [sentence for _, sentence in problems("# TIME_RESET")] == ["the script has no K_POSE_SEQUENCE"]
+    assert parsed("# TIME_RESET").block is None
+
+
+def test_a_time_reset_alone_ends_what_plays() -> None:
+    alone = block("TIME_RESET\n")
+    assert (alone.composition, alone.behaviors) == (Composition.REPLACE, ())
+    first, last = read(GOOD + "TIME_RESET", Limits(), "d")
+    assert first.block is not None
+    assert first.block.behaviors
+    assert last.block is not None
+    assert (last.block.composition, last.block.behaviors) == (Composition.REPLACE, ())
+
+
+def test_a_parameter_without_a_value_does_not_take_the_next_line_for_it() -> None:
+    empty = block(script(f"TIME_POINT: +500\n{looking()}", sequence="CHARACTER:\nSTART:+700"))
+    assert start_of(empty.behaviors[0]) == "0.7"
+    assert CAST not in empty.extensions
+    assert problems(script("TIME_POINT:\nHOLD:100"))[0] == (4, "K_POSE needs TIME_POINT")
+    assert (1, "K_POSE_SEQUENCE needs START") in problems("BEGIN K_POSE_SEQUENCE START:")
+
+
+def test_a_mark_of_the_encoding_does_not_hide_a_script() -> None:
+    for text in (GOOD.encode("utf-8-sig"), "\ufeff" + GOOD):
+        (found,) = Dialects({"embrscript": DIALECT}).read(text, Limits(), "d")
+        assert found.block is not None
+        assert found.problems == ()
+
+
+def test_characters_that_xml_does_not_have_are_replaced() -> None:
+    morph = "BEGIN MORPH_TARGET\nMORPH_KEY:jaw\x01\ud800\nMORPH_VALUE:1\nEND"
+    text = script(f"TIME_POINT:500\n{morph}", sequence="CHARACTER:A\x00mber")
+    found = parsed(text)
+    assert found.block is not None
+    assert 'id="document1"' in document([found.block])
+    assert "jaw\ufffd\ufffd" in document([found.block])
+
+
+def test_a_long_comment_takes_no_time_to_read() -> None:
+    assert key_poses(GOOD + "#" * 900_000).poses
 
 
 def test_ten_thousand_key_poses_are_one_behavior() -> None:

@@ -5,10 +5,10 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from reactive_realizer.bml.embr.faults import NoSequence, UnknownName
+from reactive_realizer.bml.embr.faults import NoSequence, TimeBack, UnknownName
 from reactive_realizer.bml.embr.nucleus import Nuclei
 from reactive_realizer.bml.embr.sequence import SequenceReader
-from reactive_realizer.bml.embr.syntax import SEQUENCE, read_nodes
+from reactive_realizer.bml.embr.syntax import SEQUENCE, read_nodes, text_of
 from reactive_realizer.bml.embr.timeline import Timed, timed
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.key_poses import KeyPoses
@@ -44,7 +44,7 @@ class EmbrLexeme(NamedTuple):
     notes: tuple[Fault, ...]
 
 
-def read_lexeme(text: str) -> EmbrLexeme:
+def read_lexeme(document: str | bytes) -> EmbrLexeme:
     """Return the gesture of a file.
 
     Poses up to the one with the label ``start``, and from the one with the label ``end``, are rest poses of EMBR's
@@ -53,15 +53,20 @@ def read_lexeme(text: str) -> EmbrLexeme:
     without a ``stroke_end``, the hold of ``ready`` is the stroke.
 
     Raises:
-        RealizerError: "embr-no-sequence": there is no sequence with a key pose of the body.
+        RealizerError: there is no sequence with a key pose of the body: "embr-no-sequence", or the first fault of the
+            file.
     """
-    script, faults = read_nodes(text)
-    sequence = next((node for node in script.children if node.name == SEQUENCE), None)
-    if sequence is None:
+    script, faults = read_nodes(text_of(document))
+    sequences = [node for node in script.children if node.name == SEQUENCE]
+    if not sequences:
         raise RealizerError(faults[0] if faults else NoSequence(line=1, column=1))
-    notes = Notes(Limits())
+    sequence, *others = sequences
+    notes, all_times = Notes(Limits()), Notes(Limits())
     notes.faults += faults
-    poses = list(timed(sequence, 0.0, Notes(Limits())))
+    for other in others:
+        notes.left_out("another K_POSE_SEQUENCE", "a gesture has only one", other.location)
+    poses = list(timed(sequence, 0.0, all_times))
+    notes.faults += (each for each in all_times.faults if not isinstance(each, TimeBack))  # those are found again below
     begin = next((pose.reached for pose in poses if pose.node.sync == _START), 0.0)
     stroke = _between_rest_poses(poses)
     kept = replace(sequence, children=[pose.node for pose in stroke])
@@ -73,7 +78,7 @@ def read_lexeme(text: str) -> EmbrLexeme:
         else:
             notes.left_out(f"<{behavior.name}>", "a gesture has only key poses of the body", behavior.location)
     if not groups:
-        raise RealizerError(NoSequence(line=1, column=1))
+        raise RealizerError(notes.faults[0] if notes.faults else NoSequence(line=1, column=1))
     holds = tuple((round(pose.reached - begin, 6), round(pose.left - begin, 6)) for pose in stroke)
     points = {sync: round(time - begin, 6) for sync, time in _points(stroke, notes).items()}
     return EmbrLexeme(tuple(groups), holds, points, tuple(notes.faults))

@@ -12,7 +12,7 @@ from reactive_realizer.bml.dialects import Dialect
 from reactive_realizer.bml.embr.faults import NoSequence
 from reactive_realizer.bml.embr.nucleus import Nuclei
 from reactive_realizer.bml.embr.sequence import SequenceReader
-from reactive_realizer.bml.embr.syntax import NUCLEUS, RESET, Node, read_nodes
+from reactive_realizer.bml.embr.syntax import NUCLEUS, RESET, Node, read_nodes, text_of
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.faults import MoreProblems, TooManyBehaviors, TooManyBytes
 from reactive_realizer.bml.names import BLOCK, Location
@@ -20,7 +20,7 @@ from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault
 from reactive_realizer.limits import Limits
 
-_BEGINNING: Final = re.compile(r"(?:\s|#[^\n]*(?:\n|$))*(?:TIME_RESET|BEGIN\s+(?:K_POSE_SEQUENCE|NUCLEUS))\b")
+_BEGINNING: Final = re.compile(r"\ufeff?(?:\s|#[^\n]*(?:\n|$))*(?:TIME_RESET|BEGIN\s+(?:K_POSE_SEQUENCE|NUCLEUS))\b")
 
 
 @dataclass(slots=True)
@@ -53,22 +53,13 @@ def read(document: str | bytes, limits: Limits, name: str) -> list[Parsed]:
     size = len(document) if isinstance(document, bytes) else len(document.encode("utf-8", "surrogatepass"))
     if size > limits.bml_bytes:
         return [_refused(TooManyBytes(size=size, limit=limits.bml_bytes, line=1, column=1))]
-    script, faults = read_nodes(_text(document))
+    script, faults = read_nodes(text_of(document))
     sections = _sections(script.children, limits)
     if not sections:
         return [_refused(*faults, NoSequence(line=1, column=1))]
     sections[0].notes.faults[:0] = faults
     ids = [name, *(f"{name}_{number}" for number in range(2, len(sections) + 1))]
     return [_parsed(section, id_, sections[0], limits) for section, id_ in zip(sections, ids, strict=True)]
-
-
-def _text(document: str | bytes) -> str:
-    if isinstance(document, str):
-        return document
-    try:
-        return document.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return document.decode("iso-8859-1")
 
 
 def _refused(*faults: Fault) -> Parsed:
@@ -95,6 +86,8 @@ def _sections(nodes: Sequence[Node], limits: Limits) -> list[_Section]:
             section = current[character]
             reader = SequenceReader(node, f"sequence{number}", nuclei, section.notes)
             section.behaviors += reader.behaviors()
+    if reset is not None and not current:  # it ends what plays, even if nothing follows
+        sections.append(_Section("", True, reset, notes))
     return sections
 
 

@@ -1,6 +1,7 @@
 """The syntax of EMBRScript: elements from BEGIN to END, parameters NAME:VALUE, comments from # to the end of a line.
 
-The grammar is that of EMBR's parser, which goes from word to word; lines matter for comments only.
+The grammar is that of EMBR's parser, which goes from word to word; lines matter for comments, and for a value after a
+space, which is in the line of its parameter.
 """
 
 import re
@@ -55,7 +56,9 @@ PARAMETERS: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
 
 _WORD = re.compile(r"[^\s#]+")
 _BEGIN, _END = "BEGIN", "END"
-_SYNC = re.compile(r"#.*\bSYNC:(\w+)")
+_SYNC = re.compile(r"\bSYNC:\s*(\w+)")
+_UNWRITABLE = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""Characters that XML, and so feedback and a translation, cannot have."""
 
 
 class Value(NamedTuple):
@@ -100,6 +103,20 @@ def _tokens(text: str) -> Iterator[_Token]:
             yield _Token(word[0], Location(row, word.start() + 1))
 
 
+def text_of(document: str | bytes) -> str:
+    """The text of a script in UTF-8, or in ISO 8859-1 if it is not; U+FFFD stands for what cannot be written in XML."""
+    return _UNWRITABLE.sub("\ufffd", _decoded(document).removeprefix("\ufeff"))
+
+
+def _decoded(document: str | bytes) -> str:
+    if isinstance(document, str):
+        return document
+    try:
+        return document.decode("utf-8")
+    except UnicodeDecodeError:
+        return document.decode("iso-8859-1")
+
+
 def read_nodes(text: str) -> tuple[Node, list[Fault]]:
     """Reads a script.
 
@@ -107,7 +124,11 @@ def read_nodes(text: str) -> tuple[Node, list[Fault]]:
         A node with the elements of the script, TIME_RESET among them; and the faults of what is left out, in order.
     """
     reader = _NodeReader(
-        {row: found[1] for row, line in enumerate(text.splitlines(), 1) if (found := _SYNC.search(line))}
+        {
+            row: found[1]
+            for row, line in enumerate(text.splitlines(), 1)
+            if (found := _SYNC.search(line.partition("#")[2]))
+        }
     )
     for token in _tokens(text):
         reader.take(token)
@@ -133,6 +154,8 @@ class _NodeReader:
 
     def take(self, token: _Token) -> None:
         """Takes the next word."""
+        if self._named is not None and token.location.line != self._named.location.line:
+            self._end_parameter()
         if self._begins is not None:
             self._begins = None
             self._begin(token)
@@ -154,6 +177,7 @@ class _NodeReader:
 
     def finish(self) -> None:
         """Takes the end of the script."""
+        self._end_parameter()
         for node in self._open[1:]:
             self._fault(Unclosed(element=node.name), node.location)
 
@@ -176,6 +200,12 @@ class _NodeReader:
             self._open.pop()
         else:
             self._fault(StrayEnd(), token.location)
+
+    def _end_parameter(self) -> None:
+        """Takes a parameter without a value."""
+        if self._named is not None:
+            named, self._named = self._named, None
+            self._parameter(named)
 
     def _parameter(self, token: _Token) -> None:
         if self._unknown:

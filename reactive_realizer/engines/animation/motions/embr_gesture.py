@@ -115,7 +115,7 @@ def _paced(keys: Sequence[Key], rest: Body) -> tuple[list[Key], tuple[list[float
 @lru_cache(256)
 def _read_file(path: Path, changed: int) -> EmbrLexeme:
     try:
-        return read_lexeme(read_bytes(path).decode("utf-8", "replace"))
+        return read_lexeme(read_bytes(path))
     except RealizerError as refused:
         raise RealizerError(_in_file(refused.fault, path.name)) from None
 
