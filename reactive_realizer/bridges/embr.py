@@ -6,6 +6,7 @@ A client of EMBR opens a connection for each script, writes the script and close
 
 import asyncio
 import logging
+import re
 import socket
 from collections.abc import Awaitable, Callable, Mapping
 from functools import partial
@@ -22,6 +23,9 @@ from reactive_realizer.limits import Limits
 logger = logging.getLogger(__name__)
 
 MEDIA_TYPE: Final = "application/vnd.embr"
+
+_HTTP: Final = re.compile(rb"[A-Z]+ [^\s]+ HTTP/")
+"""How a request of HTTP begins."""
 
 _REPORTED: Final = ("blockProgress", "syncPointProgress", "warningFeedback")
 """The feedback of BML 1.0. Predictions, which change while a block plays, are not reported."""
@@ -91,11 +95,16 @@ class EmbrBridge:
         self._limits = Limits()
 
     async def take(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        """Take the script of a connection; one without text only tests whether the port is open."""
+        """Take the script of a connection; one without text only tests whether the port is open.
+
+        A request of HTTP is refused, because any page that is open in a browser here can send one.
+        """
         try:
             async with asyncio.timeout(self._limits.body_seconds):
                 script = await _all_of(reader, self._limits.message_bytes)
-            if script.strip():
+            if _HTTP.match(script):
+                self._fail("it is a request of HTTP, as pages send them")
+            elif script.strip():
                 text = script.decode("utf-8", "replace")
                 await self._send({"type": "bml", "xml": text, "mediaType": MEDIA_TYPE, "ref": "script"})
         except (OSError, TimeoutError, ValueError) as problem:

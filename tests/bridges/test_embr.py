@@ -123,6 +123,13 @@ async def test_a_script_that_is_too_long_is_refused_and_an_empty_connection_mean
         assert "has more than 1200000 bytes" in (warning.text or "")
 
 
+async def test_a_page_in_a_browser_cannot_send_a_script(live: tuple[LiveScene, str]) -> None:
+    async with bridged(*live) as client:
+        await client.send(f"POST / HTTP/1.1\r\nHost: localhost:5555\r\n\r\n{SCRIPT}")
+        warning = await client.hear("warningFeedback", "blockProgress")
+        assert "request of HTTP" in (warning.text or "")
+
+
 def test_a_bridge_without_a_realizer_says_so(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bridge", "embr", "http://127.0.0.1:9"]) == 2
     assert "no realizer can be reached at http://127.0.0.1:9" in capsys.readouterr().err
