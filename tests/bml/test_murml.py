@@ -190,6 +190,7 @@ FAULTY: Iterable[tuple[str, str]] = (
         "needs a value of the type normal; it is straight now",
     ),
     (dynamic("0 0 1", "0 0 2").replace("linear", "spiral"), "type of dynamicElement has no spiral"),
+    (dynamic("0 0 1", "0 0 2").replace('"start"', '"begin"'), "type of value has no begin"),
 )
 
 

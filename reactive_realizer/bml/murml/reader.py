@@ -42,7 +42,9 @@ _USUAL_CURVE, _USUAL_EXTENT = "RightS", 0.2
 """Shape and extent of a curve without them, as in AsapRealizer."""
 
 _PLACES: Final = ("start", "via", "end")
-"""The types of values that are reached one after another; others describe a movement."""
+"""The types of values that are reached one after another."""
+_VALUES: Final = (*_PLACES, "direction", "distance", "normal", "shape", "extent", "roundness", "skewedness")
+"""All types of values."""
 
 
 def _mirrors() -> Iterator[tuple[str, Mirror]]:
@@ -222,6 +224,8 @@ class MurmlReader:
             RealizerError: it needs a value, or one is bad.
         """
         values = {child.get("type", ""): child for child in self._children(tree, ("value",))}
+        for kind in values.keys() - set(_VALUES):
+            self._note(values[kind], UnknownSymbol(slot="type of value", symbol=quoted(kind), known=_VALUES))
         stops = [child for child in self._children(tree, ("value",)) if child.get("type") in _PLACES]
         marks = [self._mark(child, slot, scope) for child in stops]
         if before and marks and stops[0].get("type") == "start" and marks[0].value == before[-1].value:

@@ -248,6 +248,7 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
         (part('weights="0 0, 1 1" easeIn="0.2"'), "weights replaces easeIn"),
         (part('phases="0 0, 1 0.2"', '<KeyPosition id="x" ref="p:end"/>'), "no point 'p:end'"),
         (TWO.replace("low:end", "high:end"), "no point 'high:end'"),
+        (TWO.replace('id="both"', 'id="low"'), "there is already a part 'low'"),
         (TWO.replace('id="lifted"', 'id="end"'), "reserved for the whole"),
         (TWO.replace('id="lifted"', 'id="lifted up"'), "cannot name a sync point"),
         (TWO.replace("KeyPosition", "Point"), "known are Motion, KeyPosition"),

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
@@ -127,13 +128,11 @@ class CaptureWords:
             RealizerError: "bad-capture": one of the next words is none, or too large.
         """
         words = [self.next() for _ in range(count)]
-        try:
+        with suppress(ValueError):
             found = np.array(words, dtype=np.float64)
-        except ValueError as problem:
-            raise self.bad(str(problem)) from problem
-        if not (np.abs(found) <= LARGEST).all():
-            raise self.bad(f"not all numbers are numbers up to {LARGEST:g}")
-        return found
+            if (np.abs(found) <= LARGEST).all():
+                return found
+        return np.array([self.finite(word) for word in words])  # names the first one that is none
 
     def bad(self, reason: str) -> RealizerError:
         """Return an error about the line of the last word."""

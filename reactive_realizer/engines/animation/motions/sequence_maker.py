@@ -89,7 +89,12 @@ class SequenceMaker:
         parts = [self._part(element, request) for element in elements]
         if len({part.motion.kind for part in parts}) != 1:
             raise asset_error(root, "it needs one or more parts, all of one kind")
-        names = {element.get("id", ""): part for element, part in zip(elements, parts, strict=True)}
+        names: dict[str, SequencePart] = {}
+        for element, part in zip(elements, parts, strict=True):
+            name = element.get("id", "")
+            if name and name in names:
+                raise asset_error(element, f"there is already a part '{name}'")
+            names[name] = part
         return SequenceMotionUnit(parts, dict(_key_position(key, names) for key in root.iterfind("KeyPosition")))
 
     def _part(self, element: XmlElement, request: MotionRequest) -> SequencePart:
