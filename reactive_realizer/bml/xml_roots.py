@@ -50,6 +50,8 @@ _PLAIN_DOCTYPE: Final = re.compile(
     rb"""<!DOCTYPE\s+[^\s<>\[\]"']+(?:\s+(?:SYSTEM|PUBLIC\s*(?:"[^"]*"|'[^']*'))\s*(?:"[^"]*"|'[^']*'))?\s*(?:\[\s*\]\s*)?>"""
 )
 """A DOCTYPE that declares nothing itself; what it names is not opened, so it has no effect."""
+_NOT_UTF8: Final = re.compile(rb"\xed[\xb2\xb3][\x80-\xbf]")
+"""An invalid byte, as `decode` keeps it: a lone surrogate from U+DC80 to U+DCFF."""
 _DECLARATION_END: Final = re.compile(rb"\?>")
 _MISPLACED_DECLARATION: Final = expat.errors.codes[expat.errors.XML_ERROR_MISPLACED_XML_PI]
 
@@ -240,7 +242,9 @@ class _ParserRun:
             element, place = self._root.open[-1]
             self._report(UnclosedElement(element=element), place)
         else:
-            self._report(MalformedXml(reason=expat.ErrorString(stopped.code)), place)
+            foreign = _NOT_UTF8.match(self._data, index - behind)
+            reason = "this is not UTF-8; another encoding has to be declared" if foreign else None
+            self._report(MalformedXml(reason=reason or expat.ErrorString(stopped.code)), place)
             if self._root is None:
                 following = _START_TAG.search(self._data, index + 1)
                 return following.start() if following else len(self._data)

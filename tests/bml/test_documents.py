@@ -169,6 +169,7 @@ def test_invalid_bytes_are_reported_with_their_line() -> None:
     assert ids(text) == ["a", None, "b"]
     (problem,) = read(text)[1].problems
     assert (problem.id, problem.fault.code, problem.fault.line) == ("bad", "malformed-xml", 3)
+    assert "this is not UTF-8; another encoding has to be declared" in problem.fault.sentence
 
 
 def check(path: Path) -> None:
