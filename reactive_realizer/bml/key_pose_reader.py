@@ -17,14 +17,17 @@ def read_key_poses(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[
     """The key poses of a behavior; those that cannot be read are left out with a note.
 
     Raises:
-        RealizerError: there are none.
+        RealizerError: there are none, or the first one that cannot be read.
     """
     poses: list[KeyPose] = []
+    before = len(notes)
     for child in children_of(tree, KeyPose.ELEMENT):
         try:
             poses.append(_key_pose(child, poses, source, notes))
         except RealizerError as refused:
             notes.append(refused.fault)
+    if not poses and len(notes) > before:
+        raise RealizerError(notes[before])
     if not poses:
         missing = MissingElement(element=name_of(tree), children=f"<{KeyPose.ELEMENT}>")
         raise RealizerError(source.located(tree, missing))

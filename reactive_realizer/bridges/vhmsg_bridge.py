@@ -8,6 +8,7 @@ from typing import Any, Final
 from lxml import etree
 
 from reactive_realizer.bridges.vhmsg_messages import Act, VhMessage
+from reactive_realizer.errors import quoted
 
 logger = logging.getLogger(__name__)
 
@@ -65,6 +66,8 @@ class VhmsgBridge:
             self.announce()
         act = Act.of(message)
         if act is None:
+            if message.word == "vrSpeak":
+                logger.warning("a vrSpeak needs an agent, a recipient, a name and BML: %s", quoted(message.argument))
             return None
         character = self._characters.get(act.agent)
         if character is None:

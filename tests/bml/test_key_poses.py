@@ -95,6 +95,15 @@ def test_key_poses_without_any_pose_are_refused(read: Callable[[str], Parsed]) -
     assert "must contain <keyPose>" in parsed.problems[0].fault.sentence
 
 
+def test_key_poses_that_cannot_be_read_are_refused_with_the_first_reason(read: Callable[[str], Parsed]) -> None:
+    pose = '<keyPose time="1"><lookAt target="nan 0 1"/></keyPose>'
+    parsed = read(f'<keyPoses {NAMESPACE} id="k" group="HEAD">{pose}<keyPose time="-1"/></keyPoses>')
+    assert parsed.block is not None
+    assert parsed.block.behaviors == ()
+    (problem,) = parsed.problems
+    assert "target='nan 0 1'" in problem.fault.sentence
+
+
 @pytest.mark.parametrize("kind", list(WarpKind))
 def test_a_time_warp_goes_from_0_to_1_with_its_steepness_at_the_beginning(kind: WarpKind) -> None:
     for steepness in (0.3, 1.0, 3.0):

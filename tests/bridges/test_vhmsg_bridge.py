@@ -112,6 +112,12 @@ def test_requests_to_agents_of_other_components_are_left_to_them(
     assert "rachel" in caplog.text
 
 
+def test_a_request_without_one_of_its_parts_is_logged(toolkit: Toolkit, caplog: pytest.LogCaptureFixture) -> None:
+    with caplog.at_level(logging.WARNING):
+        assert toolkit.bridge.take(VhMessage("vrSpeak", "brad user <bml/>")) is None
+    assert "needs an agent, a recipient, a name and BML: brad user <bml/>" in caplog.text
+
+
 def test_it_answers_a_call_of_all_components(toolkit: Toolkit) -> None:
     toolkit.bridge.take(VhMessage("vrAllCall", ""))
     assert toolkit.sent == ["vrComponent reactive-realizer all"]
