@@ -33,13 +33,14 @@ def turned(bodies: list[Body], joint: str) -> float:
     return math.degrees(max(angle(difference(first, body.rotation(joint))) for body in bodies))
 
 
-async def test_head_fingers_and_eyes_move_a_little() -> None:
+async def test_head_elbows_fingers_and_eyes_move_a_little() -> None:
     async with open_pilot(SceneOptions(voice="text")) as pilot:
         bodies = await minute(pilot)
     head = directions(bodies, "skullbase")
     assert 1.0 < np.ptp(head, axis=0).max() < 3.0 * math.sqrt(2.0)
     assert 1.0 < np.linalg.norm(head - head.mean(axis=0), axis=1).max() < 3.0
     assert all(turned(bodies, f"{side}_{finger}1") > 1.0 for side in "lr" for finger in ("middle", "ring", "pinky"))
+    assert all(0.5 < turned(bodies, f"{side}_elbow") < 1.5 for side in "lr")
     eyes = [body.rotation("l_eyeball_joint") for body in bodies]
     saccades = [step for one, other in pairwise(eyes) if (step := math.degrees(angle(difference(one, other)))) > 0.05]
     assert len(saccades) > 40
@@ -81,7 +82,9 @@ async def test_idle_has_a_degree(tmp_path: Path, degree: float, most: float) -> 
     human = tmp_path / "human.toml"
     human.write_text(f"[character.alice]\nidle = {degree}\n", encoding="utf-8")
     async with open_pilot(SceneOptions(human, "text")) as pilot:
-        head = directions(await minute(pilot), "skullbase")
+        bodies = await minute(pilot)
+        head = directions(bodies, "skullbase")
         smile = weights(pilot, "mouthSmileLeft")
     assert np.linalg.norm(head - head.mean(axis=0), axis=1).max() <= most
+    assert turned(bodies, "l_elbow") <= 0.5 * most
     assert (smile.max() == 0.0) == (degree == 0)

@@ -1,4 +1,4 @@
-"""Idle animation: breathing, sway, weight shifts, fingers, blinks and glances. Without it a figure looks frozen."""
+"""Idle animation: breathing, sway, weight shifts, loose arms, blinks and glances. Without it a figure is frozen."""
 
 import math
 from collections.abc import Mapping
@@ -42,7 +42,7 @@ class Idle:
         Args:
             random: the generator.
             blink_rate: blinks per minute; 0 for none.
-            degree: how far trunk, head, fingers and eyes move, 0 to 1; blinks do not depend on it.
+            degree: how far trunk, head, elbows, fingers and eyes move, 0 to 1; blinks do not depend on it.
         """
         self._degree = degree
         self.courses: Mapping[IdleParameter, IdleCourse] = {
@@ -109,6 +109,7 @@ class Idle:
             "r_sternoclavicular": from_axis_angle((0.0, 0.0, 1.0), -0.022 * air),
             "vc4": from_euler(0.012 * air - 0.006 * forth + nod, aside, tilt - 0.006 * side),
             "skullbase": from_euler(0.006 * forth + nod, 0.010 * turn + aside, 0.004 * side + tilt),
+            **self._looseness.elbows(time, degree),
             **self._looseness.fingers(time, degree),
         }
 
