@@ -167,7 +167,7 @@ _UNITS = (
         "Would you like to see it?</text></speech>",
         face=True,
     ),
-    Entry("locomotion", '<locomotion id="w" target="-0.9 0.6"/>', whole_body=True),
+    Entry("locomotion", '<locomotion id="w" target="-0.8 -0.1"/>', whole_body=True),
     Entry("locomotion-run", '<locomotion id="w" target="-1.2 -1" manner="RUN"/>', whole_body=True),
     Entry("locomotion-strafe", '<locomotion id="w" target="0.6 0" manner="STRAFE"/>', whole_body=True),
     Entry("idle", "", whole_body=True, seconds=12.0),
