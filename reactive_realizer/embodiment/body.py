@@ -1,6 +1,6 @@
 """Skeletons, and bodies: a skeleton in a pose, with forward kinematics."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -92,6 +92,11 @@ class Skeleton:
         chain = self._chains[joint]
         return chain[-2][0] if len(chain) > 1 else None
 
+    def carried(self, joints: Iterable[str]) -> frozenset[str]:
+        """Return some joints, and all that are below them."""
+        above = frozenset(joints)
+        return frozenset(joint for joint in self.joints if not above.isdisjoint(self.chain(joint)))
+
 
 @dataclass(frozen=True, slots=True)
 class Body:
@@ -153,3 +158,14 @@ class Body:
     def posed(self, rotations: Mapping[str, Quat], root: Vec3 | None = None) -> "Body":
         """Return this body with other rotations for some joints, and another root displacement if one is given."""
         return Body(self.skeleton, {**self.pose, **rotations}, self.root if root is None else root)
+
+    def turned(self, rotations: Mapping[str, Quat], moving: frozenset[str]) -> "Body":
+        """Return this body with other rotations for some joints; it knows the transforms of those that stay in place.
+
+        Args:
+            rotations: of these joints.
+            moving: these joints, and all that they carry (`Skeleton.carried`).
+        """
+        body = Body(self.skeleton, {**self.pose, **rotations}, self.root)
+        body._transforms.update({joint: at for joint, at in self._transforms.items() if joint not in moving})
+        return body

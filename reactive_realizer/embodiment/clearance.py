@@ -14,17 +14,17 @@ from typing import NamedTuple, Self
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.flesh import Ball, Contacts, Flesh, flesh_of
-from reactive_realizer.embodiment.girth import Girth, girth_of
+from reactive_realizer.embodiment.flesh import Contacts, Flesh, Windows, flesh_of
+from reactive_realizer.embodiment.girth import FOREARM, Girth, girth_of
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.posed_arm import STAYING, ArmLinks, PosedArm, Shift
+from reactive_realizer.embodiment.posed_arm import GROUPS, HAND, STAYING, ArmLinks, PosedArm, Shift
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale
 
 MARGIN = 0.015
 """Distance from the skin at which the way out begins, m."""
 
-_YIELDING = 0.005
+_YIELDING = 0.003
 """Depth to which a hand that wants to be deep in flesh is in it, m: the skin gives way."""
 
 _SOFTLY = MARGIN + _YIELDING
@@ -33,13 +33,14 @@ _SOFTLY = MARGIN + _YIELDING
 _FAR = 0.005
 """Way out up to which one step of the solution is enough, m."""
 
-_MORE = 2
+_MORE = 4
 """Further steps of the solution, after the first one."""
 
 _NOTHING = 1e-7
 """m²"""
 
-_BOTH: Mapping[str, float] = MappingProxyType(dict.fromkeys(SIDES, 1.0))
+ALL_THE_WAY: Mapping[str, float] = MappingProxyType(dict.fromkeys(SIDES, 1.0))
+"""Shares of their ways out for arms that do not point."""
 
 Clear = Callable[[Body, float], Body]
 """Returns a body with its arms out of its flesh, and away from it, m (`Clearance`)."""
@@ -56,13 +57,15 @@ class Clearance:
     def __init__(self, skeleton: Skeleton, girth: Girth) -> None:
         self._parts = flesh_of(skeleton, girth)
         self._arms = [ArmLinks.of(skeleton, side, girth) for side in SIDES]
+        self._moving = skeleton.carried(links.shoulder for links in self._arms)
+        self._windows: dict[float, tuple[Windows, ...]] = {}
 
     @classmethod
     def of(cls, avatar: Avatar) -> Self:
         """Return the clearance of an avatar."""
         return cls(avatar.skeleton, girth_of(avatar))
 
-    def __call__(self, body: Body, away: float = 0.0, shares: Mapping[str, float] = _BOTH) -> Body:
+    def __call__(self, body: Body, away: float = 0.0, shares: Mapping[str, float] = ALL_THE_WAY) -> Body:
         """Return a body with both arms out of its flesh; the same one if they are.
 
         Args:
@@ -70,69 +73,49 @@ class Clearance:
             away: distance from flesh that they keep, m.
             shares: "l" and "r" -> how much of its way out an arm goes, 0 to 1.
         """
-        posed: set[Flesh] = set()
+        balls = [ball for links in self._arms for ball in links.balls(body)]
+        near: tuple[_Near, ...] = tuple({} for _ in self._arms)
+        for part, windows in zip(self._parts, self._windows.get(away) or self._watch(away), strict=True):
+            part.find(body)
+            for number in part.near(balls, windows):
+                near[number // len(GROUPS)].setdefault(part, []).append(number % len(GROUPS))
         turns: dict[str, Quat] = {}
-        for side, links in zip(SIDES, self._arms, strict=True):
-            look = self._look(body, links, away, posed)
-            if look.contacts and shares[side] > 0.0:
-                turns |= self._turns(body, look, shares[side])
-        return body.posed(turns) if turns else body
+        posed: set[Flesh] = set()
+        for side, links, parts in zip(SIDES, self._arms, near, strict=True):
+            if parts and shares[side] > 0.0:
+                look = _look(body, links, parts, away, posed)
+                if look.contacts:
+                    turns |= _turns(body, look, shares[side])
+        return body.turned(turns, self._moving) if turns else body
 
     def deepest(self, body: Body) -> float:
         """Return how deep a hand or a forearm is in flesh, m; if none is, at least -`MARGIN`."""
         for part in self._parts:
+            part.find(body)
             part.pose(body)
         found = (
             each.depth
             for links in self._arms
             for part in self._parts
-            for each in part.contacts(links.points(body), links.radii, MARGIN).values()
+            for each in part.contacts(
+                (*links.forearm_points(body), *links.hand_points(body)), links.radii, MARGIN
+            ).values()
         )
         return max(found, default=-MARGIN)
 
-    def _look(self, body: Body, links: ArmLinks, away: float, posed: set[Flesh]) -> "_Look":
-        """Return where an arm is near to flesh; its points are only looked at where the balls around them are near.
+    def _watch(self, away: float) -> tuple[Windows, ...]:
+        """Return where the arms are near to each part from which they keep some distance, m."""
+        groups = [
+            (reach, max((links.radii[index] for index in group), default=0.0))
+            for links in self._arms
+            for reach, group in zip(links.reaches, links.groups, strict=True)
+        ]
+        self._windows[away] = tuple(part.windows(groups, MARGIN + away) for part in self._parts)
+        return self._windows[away]
 
-        Args:
-            body: in any pose.
-            links: the arm.
-            away: distance from flesh that it keeps, m.
-            posed: parts that have this pose already; those that are near get it, and are added.
-        """
-        balls, sizes = links.balls(body), [size + away for size in links.sizes]
-        radii = [radius + away for radius in links.radii]
-        points: tuple[Vec3, ...] = ()
-        contacts = {}
-        for part in self._parts:
-            if not _reaches(part.ball(body), balls, sizes):
-                continue
-            if part not in posed:
-                part.pose(body)
-                posed.add(part)
-            if part.contacts(balls, sizes, MARGIN):
-                points = points or links.points(body)
-                if near := part.contacts(points, radii, MARGIN):
-                    contacts[part] = near
-        return _Look(links, points, radii, contacts)
 
-    def _turns(self, body: Body, look: "_Look", share: float) -> dict[str, Quat]:
-        """Return the rotations with which an arm has gone a share of its way out of flesh."""
-        arm = PosedArm.of(body, look.links, look.points)
-        shares, furthest, left = look.links.shares, 0.0, {}
-        for part, found in look.contacts.items():
-            ways = {index: _way(each.depth) for index, each in found.items()}
-            left[part] = {index: max(0.0, found[index].depth - way) for index, way in ways.items()}
-            arm = arm.shifted(_shift(found, ways, shares))
-            furthest = max((furthest, *ways.values()))
-        for _ in range(_MORE if furthest > _FAR else 0):
-            for part, deep in left.items():
-                found = part.contacts(arm.points, look.radii, 0.0)
-                ways = {index: max(0.0, each.depth - deep.get(index, 0.0)) for index, each in found.items()}
-                arm = arm.shifted(_shift(found, ways, shares))
-        turns = {arm.links.shoulder: arm.shoulder, arm.links.elbow: arm.elbow}
-        if share == 1.0:
-            return turns
-        return {joint: slerp(body.rotation(joint), turn, share) for joint, turn in turns.items()}
+_Near = dict[Flesh, list[int]]
+"""Parts that are near to an arm -> the groups of its points to which they are."""
 
 
 class _Look(NamedTuple):
@@ -146,19 +129,58 @@ class _Look(NamedTuple):
     """
 
     links: ArmLinks
-    points: tuple[Vec3, ...]
+    points: Sequence[Vec3]
     radii: Sequence[float]
     contacts: Mapping[Flesh, Contacts]
 
 
-def _reaches(ball: Ball, centers: Sequence[Vec3], radii: Sequence[float]) -> bool:
-    """Return whether one of some balls may be near to what is in another one."""
-    (bx, by, bz), radius = ball
-    for (x, y, z), own in zip(centers, radii, strict=True):
-        far = radius + own + MARGIN
-        if (x - bx) ** 2 + (y - by) ** 2 + (z - bz) ** 2 < far * far:
-            return True
-    return False
+def _look(body: Body, links: ArmLinks, parts: Mapping[Flesh, Sequence[int]], away: float, posed: set[Flesh]) -> _Look:
+    """Return where an arm is in flesh, or near to it.
+
+    Args:
+        body: in any pose; the axes of the parts are known.
+        links: the arm.
+        parts: that are near to groups of its points, with the numbers of these groups.
+        away: distance from flesh that it keeps, m.
+        posed: parts that have this pose already; the others get it, and are added.
+    """
+    points = links.forearm_points(body)
+    if any(groups[-1] == HAND for groups in parts.values()):
+        points += links.hand_points(body)
+    radii = [radius + away for radius in links.radii] if away else links.radii
+    contacts: dict[Flesh, Contacts] = {}
+    for part, groups in parts.items():
+        if part not in posed:
+            part.pose(body)
+            posed.add(part)
+        which = range(links.groups[groups[0]].start, links.groups[groups[-1]].stop)
+        if found := part.contacts(points, radii, MARGIN, which):
+            contacts[part] = found
+    if contacts and len(points) == len(FOREARM):
+        points += links.hand_points(body)
+    return _Look(links, points, radii, contacts)
+
+
+def _turns(body: Body, look: _Look, share: float) -> dict[str, Quat]:
+    """Return the rotations with which an arm has gone a share of its way out of flesh."""
+    arm = start = PosedArm.of(body, look.links, look.points)
+    shares, furthest, left = look.links.shares, 0.0, {}
+    for part, near in look.contacts.items():
+        # What leaves one part may leave another one, too.
+        found = near if arm is start else part.contacts(arm.points, look.radii, MARGIN)
+        ways = {index: _way(each.depth) for index, each in found.items()}
+        left[part] = {index: max(0.0, found[index].depth - way) for index, way in ways.items()}
+        arm = arm.shifted(_shift(found, ways, shares))
+        furthest = max((furthest, *ways.values()))
+    for _ in range(_MORE if furthest > _FAR else 0):
+        for part, deep in left.items():
+            found = part.contacts(arm.points, look.radii, 0.0)
+            ways = {index: max(0.0, each.depth - deep.get(index, 0.0)) for index, each in found.items()}
+            arm = arm.shifted(_shift(found, ways, shares))
+    turns = {arm.links.shoulder: arm.shoulder, arm.links.elbow: arm.elbow}
+    if share == 1.0:
+        return turns
+    return {joint: slerp(body.rotation(joint), turn, share) for joint, turn in turns.items()}
 
 
 def _shift(contacts: Contacts, ways: Mapping[int, float], shares: Sequence[float]) -> Shift:

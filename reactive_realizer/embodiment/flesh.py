@@ -1,13 +1,15 @@
-"""The flesh of a figure in a pose, for finding points that are in it: trunk, thighs and head as round shapes."""
+"""The flesh of a figure in a pose, for finding points that are in it: trunk, thighs and head as tubes around axes."""
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol
+from collections.abc import Iterable, Sequence
+from math import atan2, floor
+from typing import NamedTuple
 
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.girth import SECTIONS, Cone, Girth
-from reactive_realizer.embodiment.joints import ROOT, SIDES, TRUNK
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, conjugate, rotate
+from reactive_realizer.embodiment.girth import Girth
+from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES, TRUNK
+from reactive_realizer.embodiment.profile import ANGLES, PER_RADIAN, Patch, Profile
+from reactive_realizer.embodiment.quaternion import Quat, rotate
 from reactive_realizer.embodiment.vector import (
     FORWARD,
     UP,
@@ -15,7 +17,6 @@ from reactive_realizer.embodiment.vector import (
     Vec3,
     add,
     cross,
-    distance,
     dot,
     length,
     rejected,
@@ -24,16 +25,13 @@ from reactive_realizer.embodiment.vector import (
     unit,
 )
 
-_STEP = SECTIONS[1] - SECTIONS[0]
-_BOTTOM, _TOP = SECTIONS[0], SECTIONS[-1]
+_LEFT: Vec3 = (1.0, 0.0, 0.0)
+
 _CAP = 0.05
-"""Height of the round ends of the trunk, m."""
+"""Height of the blunt ends of trunk and head, m."""
 
-_BENT = 0.04
-"""Room for a trunk that is bent, m."""
-
-_BACK = 0.6
-"""Place of the center of a thigh behind its axis, in its radii."""
+_CORE = 0.5
+"""Share of the way from the axis to the surface within which the surface has no effect on the sideways way out."""
 
 _NEARLY_ZERO = 1e-9
 
@@ -49,242 +47,296 @@ Contacts = dict[int, Depth]
 """Number of a point -> how deep it is."""
 
 
-class Ball(NamedTuple):
-    """A ball, by center and radius, m."""
+class Windows(NamedTuple):
+    """Where some round things are near to a tube.
 
-    center: Vec3
-    radius: float
+    Attributes:
+        first: number of bands before the first row of the profile.
+        distances: for each thing and each band, the distance from the axis up to which it is near, m.
+    """
+
+    first: int
+    distances: tuple[tuple[float, ...], ...]
 
 
-class Flesh(Protocol):
-    """A part of a figure."""
+class Flesh:
+    """A part of a figure: a tube around an axis, which may be twisted and bent.
 
-    def ball(self, body: Body) -> Ball:
-        """Return a ball in which the part of a body is, in the figure's frame, before it is posed."""
-        ...
+    Args:
+        profile: its surface.
+        size: length of its axis in the default pose, m.
+        blunt: height of its ends, m; None for ends that are half balls.
+        behind: how far the axis of the profile is behind this one, m.
+        mirrored: whether it is the mirror image of the profile.
+    """
+
+    def __init__(
+        self,
+        profile: Profile,
+        size: float,
+        blunt: float | None = None,
+        behind: float = 0.0,
+        *,
+        mirrored: bool = False,
+    ) -> None:
+        self._patches, self._blunt, self._mirrored = profile.patches(size, behind), blunt, mirrored
+        self._bottom, self._step, rows = profile.bottom, profile.step, len(profile.rows)
+        self._top = self._bottom + self._step * (rows - 1)
+        self._rest = size
+        ends = (max(patch.farthest for patch in self._patches[row]) for row in (0, rows))
+        self._ends = tuple(1.0 if blunt is None else farthest / blunt for farthest in ends)
+        self._room, self._behind = 0.0, behind
+        self._start, self._along, self._size = ZERO, UP, 1.0
+        self._left, self._front = _LEFT, FORWARD
+        self._bend, self._twist = (0.0, 0.0), 0.0
+
+    def windows(self, things: Sequence[tuple[float, float]], within: float) -> Windows:
+        """Return where balls, or groups of them, may be near.
+
+        Args:
+            things: for each group, the distance of the furthest ball from its middle, m, and the largest radius, m.
+            within: distance from the surface within which they are near, m.
+        """
+        first = 1 + max(math.ceil(self._beyond(reach, radius + within)) for reach, radius in things)
+        return Windows(first, tuple(self._distances(first, reach, radius + within) for reach, radius in things))
+
+    def _beyond(self, reach: float, further: float) -> float:
+        """Return how far beyond the ends something is near, in bands."""
+        end = self._blunt or self._behind + max(patch.farthest for line in self._patches for patch in line)
+        return (reach + end + further) / (self._rest * self._step)
+
+    def _distances(self, first: int, reach: float, further: float) -> tuple[float, ...]:
+        """Return the distances from the axis up to which something is near, for each band, m.
+
+        Args:
+            first: number of bands before the first row.
+            reach: its size around its middle, m.
+            further: distance from the surface within which it is near, m.
+        """
+        rows, band = len(self._patches), self._rest * self._step
+        far = [reach + max(each.outermost + each.steepest * further for each in line) for line in self._patches]
+        # The axis is a little shorter in a trunk that is bent, and numbers are rounded toward the first row.
+        side = math.ceil(1.2 * reach / band + 0.2)
+        distances = []
+        for at in range(-first, rows + first):
+            low, high = min(max(0, at - side), rows - 1), max(min(rows - 1, at + side), 0)
+            distance, beyond = max(far[low : high + 1]), band * max(0.0, -at - 0.5, at - rows + 1.5)
+            if self._blunt is None:  # the ends are half balls
+                distance = math.sqrt(max(0.0, distance * distance - beyond * beyond))
+            distances.append(distance)
+        return tuple(distances)
+
+    def near(self, places: Sequence[Vec3], windows: Windows) -> list[int]:
+        """Return the numbers of the things that may be near, once the axis is set (`find`).
+
+        Args:
+            places: their middles, m.
+            windows: where they are near.
+        """
+        found = []
+        (sx, sy, sz), (ux, uy, uz), room = self._start, self._along, self._room
+        first, all_distances = windows
+        bands, per_band = len(all_distances[0]), 1.0 / (self._size * self._step)
+        offset = first + 0.5 - self._bottom / self._step
+        for index, (x, y, z) in enumerate(places):
+            x, y, z = x - sx, y - sy, z - sz
+            high = x * ux + y * uy + z * uz
+            band = high * per_band + offset
+            if 0.0 <= band < bands:
+                far = all_distances[index][int(band)] + room
+                if x * x + y * y + z * z - high * high < far * far:
+                    found.append(index)
+        return found
+
+    def find(self, body: Body) -> None:
+        """Set where the axis is in a body, and how it is bent."""
+        raise NotImplementedError
 
     def pose(self, body: Body) -> None:
-        """Set the body whose part it is from now on."""
-        ...
+        """Set the directions about the axis, after `find`."""
+        raise NotImplementedError
 
-    def contacts(self, points: Sequence[Vec3], radii: Sequence[float], within: float) -> Contacts:
+    def contacts(
+        self, points: Sequence[Vec3], radii: Sequence[float], within: float, which: Iterable[int] | None = None
+    ) -> Contacts:
         """Return how deep some balls are in it, or how near to it.
 
         Args:
             points: their centers in the figure's frame, m.
             radii: m.
             within: distance beyond which they are left out, m.
+            which: numbers of those to look at; all if it is not given.
         """
-        ...
-
-
-def flesh_of(skeleton: Skeleton, girth: Girth) -> tuple[Flesh, ...]:
-    """Return the parts of a figure that its skeleton has."""
-    thighs = ((f"{side}_hip", f"{side}_knee") for side in SIDES)
-    legs = (Thigh(*joints, girth.thigh) for joints in thighs if all(joint in skeleton for joint in joints))
-    return (Trunk(skeleton, girth), *legs, Head(girth))
-
-
-class _Axes(NamedTuple):
-    """Axes of a part in the figure's frame, unit vectors: to its left, along it, and to its front."""
-
-    x: Vec3
-    y: Vec3
-    z: Vec3
-
-    def outward(self, found: Depth) -> Depth:
-        """Return a depth whose way out is in these axes, in the figure's frame."""
-        deep, (a, b, c) = found
-        (x0, x1, x2), (y0, y1, y2), (z0, z1, z2) = self
-        return Depth(deep, (a * x0 + b * y0 + c * z0, a * x1 + b * y1 + c * z1, a * x2 + b * y2 + c * z2))
-
-
-class Thigh:
-    """A cone with round ends; its center is near its back, so that what is in it goes out in front or aside."""
-
-    def __init__(self, begin: str, end: str, radii: Cone) -> None:
-        self._joints, self._radii = (begin, end), radii
-        self._start = ZERO
-        self._axes = _Axes(ZERO, ZERO, ZERO)
-        self._size = 0.0
-
-    def ball(self, body: Body) -> Ball:
-        """See `Flesh`."""
-        (hx, hy, hz), (kx, ky, kz) = (body.transform(joint).position for joint in self._joints)
-        center = 0.5 * (hx + kx), 0.5 * (hy + ky), 0.5 * (hz + kz)
-        return Ball(center, distance(center, (hx, hy, hz)) + (1.0 + _BACK) * max(self._radii))
-
-    def pose(self, body: Body) -> None:
-        """See `Flesh`."""
-        hip, knee = (body.transform(joint) for joint in self._joints)
-        self._start, way = hip.position, subtract(knee.position, hip.position)
-        self._size = max(length(way), _NEARLY_ZERO)
-        along = scale(way, 1.0 / self._size)
-        lateral = _lateral(hip.rotation, along)
-        self._axes = _Axes(lateral, along, cross(along, lateral))
-
-    def contacts(self, points: Sequence[Vec3], radii: Sequence[float], within: float) -> Contacts:
-        """See `Flesh`."""
-        # Written out, as in `Trunk`: calls take longer than what they do.
+        # Written out: calls take longer than what they do.
         found: Contacts = {}
-        (sx, sy, sz), (lx, ly, lz), (ux, uy, uz), (fx, fy, fz) = self._start, *self._axes
-        size, (begin, end) = self._size, self._radii
-        for index, (px, py, pz) in enumerate(points):
+        (sx, sy, sz), (ux, uy, uz), (lx, ly, lz), (fx, fy, fz) = self._start, self._along, self._left, self._front
+        (bx, bz), twist, size, patches = self._bend, self._twist, self._size, self._patches
+        behind = self._behind
+        per_size, offset, last = 1.0 / size, 0.5 - self._bottom / self._step, len(self._patches) - 1
+        per_row = per_size / self._step
+        for index in range(len(points)) if which is None else which:
+            px, py, pz = points[index]
             x, y, z = px - sx, py - sy, pz - sz
-            along = x * ux + y * uy + z * uz
-            inside = 0.0 if along < 0.0 else size if along > size else along
-            x, y, z = x - inside * ux, y - inside * uy, z - inside * uz
-            thick = begin + inside / size * (end - begin)
-            wide = thick + radii[index]
-            far = wide + within
-            if x * x + y * y + z * z < far * far:
-                deep = x * fx + y * fy + z * fz + _BACK * thick
-                front = wide + (_BACK if deep > 0.0 else -_BACK) * thick
-                depth = _out(x * lx + y * ly + z * lz, along - inside, deep, wide, wide, front)
-                if depth.depth > -within:
-                    found[index] = self._axes.outward(depth)
-        return found
-
-
-class Head:
-    """An ellipsoid in the axes of skullbase."""
-
-    def __init__(self, girth: Girth) -> None:
-        self._center, self._size = girth.head, girth.head_size
-        self._furthest = max(girth.head_size)
-        self._at, self._turn = ZERO, IDENTITY
-
-    def ball(self, body: Body) -> Ball:
-        """See `Flesh`."""
-        return Ball(body.transform("skullbase").position, length(self._center) + self._furthest)
-
-    def pose(self, body: Body) -> None:
-        """See `Flesh`."""
-        place = body.transform("skullbase")
-        self._turn = place.rotation
-        self._at = add(place.position, rotate(place.rotation, self._center))
-
-    def contacts(self, points: Sequence[Vec3], radii: Sequence[float], within: float) -> Contacts:
-        """See `Flesh`."""
-        found: Contacts = {}
-        hx, hy, hz = self._at
-        for index, (px, py, pz) in enumerate(points):
-            x, y, z = px - hx, py - hy, pz - hz
-            far = self._furthest + radii[index] + within
-            if x * x + y * y + z * z < far * far:
-                depth = self._depth((x, y, z), radii[index])
+            high = x * ux + y * uy + z * uz
+            across, ahead = x * lx + y * ly + z * lz, x * fx + y * fy + z * fz + behind
+            share = 0.0
+            if bx or bz:
+                share = high * per_size
+                share = 0.0 if share < 0.0 else 1.0 if share > 1.0 else share
+                bent = share * (1.0 - share)
+                across, ahead = across - bent * bx, ahead - bent * bz
+            place = high * per_row + offset
+            turn = (atan2(across, ahead) - share * twist) * PER_RADIAN + 0.5
+            row = 0 if place < 0.0 else last if place > last else int(place)
+            column = floor(turn)
+            patch = patches[row][column % ANGLES]
+            farthest, _, steepest, _ = patch
+            far = farthest + steepest * (radii[index] + within)
+            if across * across + ahead * ahead < far * far:
+                along = place - row
+                along = 0.0 if along < 0.0 else 1.0 if along > 1.0 else along
+                depth = self._depth(patch, (along, turn - column), (across, high, ahead), radii[index])
                 if depth.depth > -within:
                     found[index] = depth
         return found
 
-    def _depth(self, way: Vec3, radius: float) -> Depth:
-        (x, y, z), (a, b, c) = rotate(conjugate(self._turn), way), self._size
-        found = _out(x, y, z, a + radius, b + radius, c + radius)
-        return Depth(found.depth, rotate(self._turn, found.out))
+    def _depth(self, patch: Patch, shares: tuple[float, float], place: Vec3, radius: float) -> Depth:
+        """Return the depth of a ball.
+
+        Args:
+            patch: of the surface beside it.
+            shares: of the patch along and around the axis.
+            place: of its center: to the left of the axis, along it, and in front of it, m.
+            radius: m.
+        """
+        (u, v), (across, high, ahead), size = shares, place, self._size
+        c00, c01, c02, c10, c11, c12, c20, c21, c22 = patch.terms
+        a, b, c = c00 + v * (c01 + v * c02), c10 + v * (c11 + v * c12), c20 + v * (c21 + v * c22)
+        surface, along = a + u * (b + u * c), (b + 2.0 * u * c) / (self._step * size)
+        around = c01 + 2.0 * v * c02 + u * (c11 + 2.0 * v * c12 + u * (c21 + 2.0 * v * c22))
+        around *= PER_RADIAN
+        off = math.sqrt(across * across + ahead * ahead)
+        rise, from_axis = 0.0, off
+        if not self._bottom * size < high < self._top * size:
+            lower, upper = self._ends
+            end, blunt = (self._bottom, lower) if high < self._bottom * size else (self._top, upper)
+            rise = blunt * (high - end * size)
+            from_axis = math.sqrt(off * off + rise * rise)
+            rise *= blunt
+        if from_axis < _NEARLY_ZERO:
+            return Depth(surface + radius, self._front)
+        # The gradient of the distance from the surface, in the axes of the part.
+        radial, lift = off / from_axis, rise / from_axis - along
+        sideways = -around / max(off, _CORE * surface)
+        slope = math.sqrt(radial * radial + sideways * sideways + lift * lift)
+        if off > _NEARLY_ZERO:
+            across, ahead = across / off, ahead / off
+        else:
+            across, ahead = 0.0, 1.0
+        to_left, to_front = radial * across + sideways * ahead, radial * ahead - sideways * across
+        (lx, ly, lz), (ux, uy, uz), (fx, fy, fz) = self._left, self._along, self._front
+        to_left, lift, to_front = to_left / slope, lift / slope, to_front / slope
+        out = (
+            to_left * lx + lift * ux + to_front * fx,
+            to_left * ly + lift * uy + to_front * fy,
+            to_left * lz + lift * uz + to_front * fz,
+        )
+        return Depth((surface - from_axis) / slope + radius, out)
+
+    def _set_axis(self, start: Vec3, end: Vec3) -> None:
+        (sx, sy, sz), (ex, ey, ez) = start, end
+        x, y, z = ex - sx, ey - sy, ez - sz
+        self._size = size = math.sqrt(x * x + y * y + z * z) or _NEARLY_ZERO
+        self._start, self._along = start, (x / size, y / size, z / size)
 
 
-class Trunk:
-    """A bent tube of half ellipses from the pelvis to the neck, twisted and bent as its joints are.
+class Thigh(Flesh):
+    """A thigh, around the line from hip to knee."""
 
-    Its center is near the spine, so that what is in the belly goes out in front.
-    """
+    def __init__(self, skeleton: Skeleton, side: str, girth: Girth) -> None:
+        self._joints = f"{side}_hip", f"{side}_knee"
+        size = length(skeleton.offset(self._joints[1]))
+        super().__init__(girth.thigh, size, behind=girth.behind, mirrored=side == "r")
 
-    def __init__(self, skeleton: Skeleton, girth: Girth) -> None:
-        self._sections = girth.trunk
-        self._neck = "vc4" if "vc4" in skeleton else "skullbase"
-        below = [joint for joint in skeleton.chain(self._neck) if joint in TRUNK]
-        self._chest, self._middle = below[-1], below[len(below) // 2]
-        self._widest = max(max(each.side, each.front + each.ahead) for each in girth.trunk) + _BENT
-        self._start, self._along, self._size = ZERO, UP, 1.0
-        self._lateral: tuple[Vec3, Vec3] = ((1.0, 0.0, 0.0), ZERO)
-        self._bend = ZERO
-        self._bent_at_rest = 0.0
-        self.pose(Body(skeleton))
-        self._bent_at_rest = dot(self._bend, FORWARD)
-
-    def ball(self, body: Body) -> Ball:
+    def find(self, body: Body) -> None:
         """See `Flesh`."""
-        (rx, ry, rz), (nx, ny, nz) = body.transform(ROOT).position, body.transform(self._neck).position
-        center = 0.5 * (rx + nx), 0.5 * (ry + ny), 0.5 * (rz + nz)
-        # The sections go on beyond both ends.
-        half = distance(center, (rx, ry, rz)) * (1.0 + 2.0 * max(-_BOTTOM, _TOP - 1.0, 0.0))
-        return Ball(center, half + self._widest + _CAP)
+        hip, knee = self._joints
+        self._set_axis(body.transform(hip).position, body.transform(knee).position)
 
     def pose(self, body: Body) -> None:
         """See `Flesh`."""
-        pelvis, chest = body.transform(ROOT), body.transform(self._chest)
-        self._start = pelvis.position
-        way = subtract(body.transform(self._neck).position, self._start)
-        self._size = max(length(way), _NEARLY_ZERO)
-        self._along = along = scale(way, 1.0 / self._size)
-        low, high = (_lateral(each.rotation, along) for each in (pelvis, chest))
-        self._lateral = (low, subtract(high, low))
+        left = _lateral(body.transform(self._joints[0]).rotation, self._along)
+        self._front = cross(self._along, left)
+        self._left = scale(left, -1.0) if self._mirrored else left
+
+
+class Head(Flesh):
+    """A head, around an upward line in the axes of skullbase."""
+
+    def __init__(self, girth: Girth) -> None:
+        super().__init__(girth.head, girth.head_size, _CAP)
+        self._chin, self._height = girth.chin, girth.head_size
+
+    def find(self, body: Body) -> None:
+        """See `Flesh`."""
+        place = body.transform(HEAD[1])
+        self._along = rotate(place.rotation, UP)
+        self._start, self._size = add(place.position, rotate(place.rotation, self._chin)), self._height
+
+    def pose(self, body: Body) -> None:
+        """See `Flesh`."""
+        turn = body.transform(HEAD[1]).rotation
+        self._left, self._front = rotate(turn, _LEFT), rotate(turn, FORWARD)
+
+
+class Trunk(Flesh):
+    """A trunk, around the line from the root to the neck, twisted and bent as its joints are."""
+
+    def __init__(self, skeleton: Skeleton, girth: Girth) -> None:
+        self._neck = HEAD[0] if HEAD[0] in skeleton else HEAD[1]
+        below = [joint for joint in skeleton.chain(self._neck) if joint in TRUNK]
+        self._chest, self._middle = below[-1], below[len(below) // 2]
+        body = Body(skeleton)
+        way = subtract(body.transform(self._neck).position, body.transform(ROOT).position)
+        super().__init__(girth.trunk, max(length(way), _NEARLY_ZERO), _CAP)
+        self._bent_at_rest = (0.0, 0.0)
+        self.find(body)
+        self._bent_at_rest = self._bend
+
+    def find(self, body: Body) -> None:
+        """See `Flesh`."""
+        root = body.transform(ROOT)
+        self._set_axis(root.position, body.transform(self._neck).position)
+        along = self._along
+        self._left = left = _lateral(root.rotation, along)
+        self._front = front = cross(left, along)
         middle = subtract(body.transform(self._middle).position, self._start)
         share = min(0.9, max(0.1, dot(middle, along) / self._size))
-        bend = scale(rejected(middle, along), 1.0 / (share * (1.0 - share)))
-        self._bend = subtract(bend, scale(cross(low, along), self._bent_at_rest))
+        (x, z), bent = self._bent_at_rest, 1.0 / (share * (1.0 - share))
+        x, z = bent * dot(middle, left) - x, bent * dot(middle, front) - z
+        self._bend, self._room = (x, z), 0.25 * math.sqrt(x * x + z * z)
 
-    def contacts(self, points: Sequence[Vec3], radii: Sequence[float], within: float) -> Contacts:
+    def pose(self, body: Body) -> None:
         """See `Flesh`."""
-        found: Contacts = {}
-        (ux, uy, uz), (sx, sy, sz) = self._along, self._start
-        bottom, top = (end * self._size for end in (_BOTTOM, _TOP))
-        for index, (px, py, pz) in enumerate(points):
-            x, y, z = px - sx, py - sy, pz - sz
-            high, radius = x * ux + y * uy + z * uz, radii[index]
-            above = high - top if high > top else high - bottom if high < bottom else 0.0
-            if abs(above) > _CAP + radius + within:
-                continue
-            x, y, z = x - high * ux, y - high * uy, z - high * uz
-            far = self._widest + radius + within
-            if x * x + y * y + z * z < far * far:
-                depth, axes = self._depth((x, y, z), high / self._size, above, radius)
-                if depth.depth > -within:
-                    found[index] = axes.outward(depth)
-        return found
+        along, low = self._along, self._left
+        high = _lateral(body.transform(self._chest).rotation, along)
+        self._twist = math.atan2(dot(cross(low, high), along), dot(low, high))
 
-    def _depth(self, across: Vec3, share: float, above: float, radius: float) -> tuple[Depth, _Axes]:
-        """Return the depth of a ball, in some axes.
 
-        Args:
-            across: from the line between root and neck to its center, m.
-            share: of this line up to which it is.
-            above: height above the upper end, m; negative below the lower end.
-            radius: m.
-        """
-        within = 0.0 if share < 0.0 else 1.0 if share > 1.0 else share
-        (lx, ly, lz), (cx, cy, cz) = self._lateral
-        lateral = (lx + within * cx, ly + within * cy, lz + within * cz)
-        if (size := length(lateral)) > _NEARLY_ZERO:  # else it is twisted by half a turn
-            lateral = scale(lateral, 1.0 / size)
-        axes = _Axes(lateral, self._along, cross(lateral, self._along))
-        place = (share - _BOTTOM) / _STEP
-        lower = 0 if place < 0.0 else min(len(SECTIONS) - 2, int(place))
-        rest = min(1.0, max(0.0, place - lower))
-        (side, front, back, center), upper = self._sections[lower], self._sections[lower + 1]
-        bend = within * (1.0 - within)
-        x, y, z = across
-        bx, by, bz = self._bend
-        across = (x - bend * bx, y - bend * by, z - bend * bz)
-        deep = dot(across, axes.z) - center - rest * (upper[3] - center)
-        thick = front + rest * (upper[1] - front) if deep > 0.0 else back + rest * (upper[2] - back)
-        wide = side + rest * (upper[0] - side) + radius
-        return _out(dot(across, lateral), above, deep, wide, _CAP + radius, thick + radius), axes
+def flesh_of(skeleton: Skeleton, girth: Girth) -> tuple[Flesh, ...]:
+    """Return the parts of a figure that its skeleton has."""
+    legs = (side for side in SIDES if f"{side}_hip" in skeleton and f"{side}_knee" in skeleton)
+    return (Trunk(skeleton, girth), *(Thigh(skeleton, side, girth) for side in legs), Head(girth))
 
 
 def _lateral(turn: Quat, along: Vec3) -> Vec3:
     """Return the direction to the left of a part, for the rotation of its joint; any if it points along itself."""
-    across = rejected(rotate(turn, (1.0, 0.0, 0.0)), along)
-    if length(across) < _NEARLY_ZERO:
-        across = rejected(rotate(turn, FORWARD), along)
+    (w, x, y, z), (ux, uy, uz) = turn, along
+    lx, ly, lz = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)
+    part = lx * ux + ly * uy + lz * uz
+    lx, ly, lz = lx - part * ux, ly - part * uy, lz - part * uz
+    size = math.sqrt(lx * lx + ly * ly + lz * lz)
+    if size > _NEARLY_ZERO:
+        return (lx / size, ly / size, lz / size)
+    across = rejected(rotate(turn, FORWARD), along)
     return unit(across) if length(across) > 0.0 else across
-
-
-def _out(x: float, y: float, z: float, a: float, b: float, c: float) -> Depth:
-    """Return how deep a point is in an ellipsoid with some semi-axes, by the first order of its equation, m."""
-    gx, gy, gz = x / (a * a), y / (b * b), z / (c * c)
-    slope = math.sqrt(gx * gx + gy * gy + gz * gz)
-    if slope < _NEARLY_ZERO:
-        return Depth(c, FORWARD)
-    far = math.sqrt(x * gx + y * gy + z * gz)
-    return Depth((1.0 - far) * far / slope, (gx / slope, gy / slope, gz / slope))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.clearance import Clearance
+from reactive_realizer.embodiment.clearance import ALL_THE_WAY, Clearance
 from reactive_realizer.embodiment.face_map import NO_STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.frame import Frame, rotation_array
 from reactive_realizer.embodiment.inertialization import Inertialization
@@ -147,8 +147,10 @@ class Humanoid:
         moved = {joint: turn for joint, turn in body.pose.items() if turn is not kinematic[joint]}
         self._shown, self.body, self._forced = body, self.body.posed(moved, body.root), frozenset(moved)
 
-    def _ways_out(self, passed: float) -> dict[str, float]:
+    def _ways_out(self, passed: float) -> Mapping[str, float]:
         """Return how much of its way out of flesh each arm goes, 0 to 1, some time after the last frame, s."""
+        if not self._aiming and not any(self._aimed.values()):
+            return ALL_THE_WAY
         for side, aimed in self._aimed.items():
             step = passed / _AIMING
             self._aimed[side] = min(1.0, aimed + step) if side in self._aiming else max(0.0, aimed - step)

@@ -1,14 +1,15 @@
 """An arm in a pose whose forearm can be moved, with the points of forearm and hand that should keep clear of flesh."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple, Self
 
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.girth import Girth
+from reactive_realizer.embodiment.girth import FOREARM, Girth
 from reactive_realizer.embodiment.quaternion import Quat, between, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import (
+    FORWARD,
     ZERO,
     Vec3,
     add,
@@ -22,16 +23,31 @@ from reactive_realizer.embodiment.vector import (
     unit,
 )
 
-_FOREARM = (0.35, 0.7)
-"""Points of the forearm that are kept clear, as shares of its length; the wrist, the palm and the fingers are too."""
+_KNUCKLES = ("index1", "pinky1")
+"""Joints of the palm that are kept clear."""
 
-_MIDDLE = 0.5 * (1.0 + _FOREARM[0])
+_TIP = 0.7
+"""Center of a fingertip beyond its last joint, in lengths of the bone before it."""
 
-_HAND = ("index1", "pinky1", "middle2", "middle3")
+_FINGERTIPS = (("index1", 0.9), ("ring1", 1.4))
+"""Fingers beside the middle one whose tips are kept clear: how far they are aside, in distances of knuckles."""
+
+_NEAR_ELBOW, _NEAR_WRIST = range(2), range(2, len(FOREARM))
+
+GROUPS = (0, 1, 2)
+"""Numbers of groups of points: near the elbow, near the wrist, of the hand."""
+
+HAND = GROUPS[-1]
 
 _STRAIGHT = 0.995
 _BENT = 0.002
 """Square of the sine of its bend at which an elbow bends half as much as it should."""
+
+_BENDING, _BENDS = ("middle1", "middle2", "middle3"), (0.0, 0.3, 0.6, 0.9, 1.2, 1.5)
+"""Joints of a finger, and how far each of them bends from a flat hand to a fist, rad."""
+
+_SPREAD = 0.01
+"""How much further from the middle of a hand its points may be, m: fingers spread, too."""
 
 _FOLDED = math.radians(30.0)
 _OFF_LINE = 0.02
@@ -56,59 +72,133 @@ class ArmLinks(NamedTuple):
         shoulder: its name, as those of elbow and wrist.
         elbow: its name.
         wrist: its name.
-        hand: joints of the hand that are kept clear.
         upper: from shoulder to elbow, m.
         lower: from elbow to wrist, m.
-        radii: of the points that are kept clear, m.
+        hand: joints of the hand, each with points in its axes that are kept clear, m.
+        radii: of the points that are kept clear, first those of the forearm, m.
         shares: of the way from elbow to wrist at which these points are; those of the hand go with the wrist.
-        knuckle: the joint around which the hand is.
-        sizes: radii of two balls that contain these points, around the middle of the forearm and the knuckle, m.
+        groups: numbers of the points of each group.
+        middles: of the groups of the forearm, as shares of its length.
+        palm: middle of the group of the hand, in the axes of the wrist, m.
+        reaches: furthest points of the groups from their middles, m.
     """
 
     carrier: str
     shoulder: str
     elbow: str
     wrist: str
-    hand: tuple[str, ...]
     upper: Vec3
     lower: Vec3
+    hand: tuple[tuple[str, tuple[Vec3, ...]], ...]
     radii: tuple[float, ...]
     shares: tuple[float, ...]
-    knuckle: str
-    sizes: tuple[float, float]
+    groups: tuple[range, ...]
+    middles: tuple[float, ...]
+    palm: Vec3
+    reaches: tuple[float, ...]
 
     @classmethod
     def of(cls, skeleton: Skeleton, side: str, girth: Girth) -> Self:
         """Return the left ("l") or right ("r") arm of a skeleton."""
         shoulder, elbow, wrist = (f"{side}_{joint}" for joint in Arm.JOINTS)
-        hand = tuple(name for joint in _HAND if (name := f"{side}_{joint}") in skeleton)
-        begin, end = girth.forearm
-        knuckle = f"{side}_middle1" if f"{side}_middle1" in skeleton else wrist
-        lower, default = skeleton.offset(wrist), Body(skeleton)
-        reach = (distance(*(default.transform(joint).position for joint in (knuckle, each))) for each in hand)
+        lower, hand = skeleton.offset(wrist), _Hand(skeleton, side)
+        (palm, reach), (knuckles, *fingers) = hand.ball(), tuple(hand.points())
+        radii = (
+            *girth.forearm,
+            *(girth.hand for _ in knuckles[1]),
+            *(girth.finger for _, points in fingers for _ in points),
+        )
+        spans = [(FOREARM[group[0]], FOREARM[group[-1]]) for group in (_NEAR_ELBOW, _NEAR_WRIST)]
         return cls(
             skeleton.parent(shoulder) or shoulder,
             shoulder,
             elbow,
             wrist,
-            hand,
             skeleton.offset(elbow),
             lower,
-            (*(begin + share * (end - begin) for share in _FOREARM), end, *(girth.hand for _ in hand)),
-            (*_FOREARM, 1.0, *(1.0 for _ in hand)),
-            knuckle,
-            (0.5 * (1.0 - _FOREARM[0]) * length(lower) + begin, max(reach, default=0.0) + girth.hand),
+            (knuckles, *fingers),
+            radii,
+            (*FOREARM, *(1.0 for _ in radii[len(FOREARM) :])),
+            (_NEAR_ELBOW, _NEAR_WRIST, range(len(FOREARM), len(radii))),
+            tuple(0.5 * (first + last) for first, last in spans),
+            palm,
+            (*(0.5 * (last - first) * length(lower) for first, last in spans), reach),
         )
 
-    def balls(self, body: Body) -> tuple[Vec3, Vec3]:
-        """Return the centers of the two balls, m."""
-        elbow, wrist, knuckle = (body.transform(joint).position for joint in (self.elbow, self.wrist, self.knuckle))
-        return add(elbow, scale(subtract(wrist, elbow), _MIDDLE)), knuckle
+    def balls(self, body: Body) -> tuple[Vec3, Vec3, Vec3]:
+        """Return the middles of the groups, m."""
+        (ex, ey, ez), (wrist, turn) = body.transform(self.elbow).position, body.transform(self.wrist)
+        wx, wy, wz = wrist
+        upper, lower = self.middles
+        x, y, z = wx - ex, wy - ey, wz - ez
+        return (
+            (ex + upper * x, ey + upper * y, ez + upper * z),
+            (ex + lower * x, ey + lower * y, ez + lower * z),
+            add(wrist, rotate(turn, self.palm)),
+        )
 
-    def points(self, body: Body) -> tuple[Vec3, ...]:
-        """Return the points of the arm that are kept clear, m."""
-        elbow, wrist = body.transform(self.elbow).position, body.transform(self.wrist).position
-        return (*_along(elbow, wrist), wrist, *(body.transform(joint).position for joint in self.hand))
+    def forearm_points(self, body: Body) -> list[Vec3]:
+        """Return the points of the forearm that are kept clear, m."""
+        return _along(body.transform(self.elbow).position, body.transform(self.wrist).position)
+
+    def hand_points(self, body: Body) -> list[Vec3]:
+        """Return the points of the hand that are kept clear, m."""
+        found = []
+        for joint, points in self.hand:
+            (px, py, pz), turn = body.transform(joint)
+            for point in points:
+                x, y, z = rotate(turn, point)
+                found.append((px + x, py + y, pz + z))
+        return found
+
+
+class _Hand:
+    """A hand of a skeleton."""
+
+    def __init__(self, skeleton: Skeleton, side: str) -> None:
+        self._skeleton, self._side, self._default = skeleton, side, Body(skeleton)
+        self._wrist = f"{side}_wrist"
+
+    def points(self) -> Iterator[tuple[str, tuple[Vec3, ...]]]:
+        """Yield joints with points in their axes that are kept clear, m, the palm first. The thumb goes with it."""
+        yield self._wrist, tuple(self._from(self._wrist, knuckle) for knuckle in _KNUCKLES if self._has(knuckle))
+        if self._has("thumb3"):
+            yield self._wrist, (add(self._from(self._wrist, "thumb3"), self._tip("thumb3")),)
+        if all(map(self._has, ("middle1", "middle2", "middle3"))):
+            yield f"{self._side}_middle2", (ZERO,)
+            aside = [
+                scale(self._from(f"{self._side}_middle1", knuckle), far)
+                for knuckle, far in _FINGERTIPS
+                if self._has(knuckle)
+            ]
+            yield f"{self._side}_middle3", tuple(add(self._tip("middle3"), each) for each in aside or (ZERO,))
+
+    def ball(self) -> tuple[Vec3, float]:
+        """Return the middle of the hand, in the axes of the wrist, m, and how far from there its points may be, m."""
+        placed = [place for bend in _BENDS for place in self._bent(bend)]
+        if not placed:
+            return ZERO, 0.0
+        x, y, z = (0.5 * (min(side) + max(side)) for side in zip(*placed, strict=True))
+        return (x, y, z), max(distance((x, y, z), place) for place in placed) + _SPREAD
+
+    def _bent(self, bend: float) -> Iterator[Vec3]:
+        """Yield the points of the hand, relative to the wrist, m, where each joint of the fingers bends so far, rad."""
+        turn = from_axis_angle(FORWARD, -bend if self._side == "l" else bend)
+        body = Body(self._skeleton, dict.fromkeys((f"{self._side}_{joint}" for joint in _BENDING), turn))
+        start = body.transform(self._wrist).position
+        for joint, points in self.points():
+            place = body.transform(joint)
+            yield from (subtract(add(place.position, rotate(place.rotation, point)), start) for point in points)
+
+    def _has(self, joint: str) -> bool:
+        return f"{self._side}_{joint}" in self._skeleton
+
+    def _tip(self, joint: str) -> Vec3:
+        return scale(self._skeleton.offset(f"{self._side}_{joint}"), _TIP)
+
+    def _from(self, start: str, joint: str) -> Vec3:
+        end = self._default.transform(f"{self._side}_{joint}").position
+        return subtract(end, self._default.transform(start).position)
 
 
 class PosedArm(NamedTuple):
@@ -132,12 +222,12 @@ class PosedArm(NamedTuple):
     elbow: Quat
     hand: tuple[Vec3, ...]
     wrist: Vec3
-    points: tuple[Vec3, ...]
+    points: Sequence[Vec3]
 
     @classmethod
-    def of(cls, body: Body, links: ArmLinks, points: tuple[Vec3, ...]) -> Self:
+    def of(cls, body: Body, links: ArmLinks, points: Sequence[Vec3]) -> Self:
         """Return the arm of a body, whose points are known."""
-        wrist, *hand = points[len(_FOREARM) :]
+        wrist, *hand = points[len(FOREARM) - 1 :]
         back = conjugate(body.transform(links.elbow).rotation)
         return cls(
             links,
@@ -169,15 +259,15 @@ class PosedArm(NamedTuple):
         upper_turn = multiply(self.above, shoulder)
         middle, turn = add(self.start, rotate(upper_turn, self.links.upper)), multiply(upper_turn, elbow)
         wrist = add(middle, rotate(turn, self.links.lower))
-        points = (*_along(middle, wrist), wrist, *(add(wrist, rotate(turn, point)) for point in self.hand))
+        points = (*_along(middle, wrist), *(add(wrist, rotate(turn, point)) for point in self.hand))
         return self._replace(shoulder=shoulder, elbow=elbow, wrist=wrist, points=points)
 
 
-def _along(elbow: Vec3, wrist: Vec3) -> Iterator[Vec3]:
-    """Yield the points of a forearm that are kept clear, m."""
+def _along(elbow: Vec3, wrist: Vec3) -> list[Vec3]:
+    """Return the points of a forearm that are kept clear, m."""
     (ex, ey, ez), (wx, wy, wz) = elbow, wrist
     x, y, z = wx - ex, wy - ey, wz - ez
-    return ((ex + share * x, ey + share * y, ez + share * z) for share in _FOREARM)
+    return [(ex + share * x, ey + share * y, ez + share * z) for share in FOREARM]
 
 
 def _bend(upper: Vec3, lower: Vec3, far: float) -> Quat:

@@ -159,7 +159,8 @@ async def test_an_orientation_turns_the_hand_from_the_forearm_or_in_the_axes_of_
         await pilot.advance(3)
     assert palm(at(pilot, "ready"), "r")[1] > 0.8
     turned = rotate((0.5, -0.5, -0.5, 0.5), hand_axes("r", pilot.bodies()[0].skeleton)[BodyAxis.PALM])
-    assert palm(at(pilot, "ready", "c:g"), "r") == pytest.approx(turned, abs=0.1)
+    # The elbow keeps clear of the trunk, and the hand goes with its forearm.
+    assert palm(at(pilot, "ready", "c:g"), "r") == pytest.approx(turned, abs=0.2)
 
 
 async def test_an_openness_lifts_the_elbow(gestuary: Open) -> None:
@@ -174,7 +175,7 @@ async def test_an_openness_lifts_the_elbow(gestuary: Open) -> None:
         await pilot.advance(3)
     low, high = (at(pilot, "ready", behavior).transform("r_elbow").position for behavior in ("b:g", "c:g"))
     assert low[0] - high[0] > 0.02
-    assert high[1] - low[1] > 0.02
+    assert high[1] - low[1] > 0.015
 
 
 async def test_fingers_have_the_shape_of_the_file_of_shapes_or_else_the_most_similar_one(gestuary: Open) -> None:

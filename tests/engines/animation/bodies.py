@@ -56,7 +56,7 @@ def body_in(skeleton: Skeleton, stance: str = "STANDING", **poses: str) -> Body:
 
 
 REST_POSE = body_in(Avatar.read(ASSET("avatars/female.glb")).skeleton).pose
-"""Joint -> rotation of a figure that stands at ease; the same for every figure."""
+"""Joint -> rotation of a figure that stands at ease."""
 
 
 def shown(unit: MotionUnit, phase: float, body: Body, below: Body | None = None) -> dict[str, Quat]:

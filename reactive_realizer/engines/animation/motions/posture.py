@@ -10,7 +10,7 @@ from reactive_realizer.bml.behaviors import Pose, Posture, PostureShift
 from reactive_realizer.bml.vocabulary import PosePart, StanceType
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.pose import LayerKind
+from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
 from reactive_realizer.embodiment.vector import distance
@@ -49,6 +49,9 @@ _SWING = {
     "r_elbow": (-1.0, 0.0, 0.0),
 }
 """Swing of the arms forward and aside meanwhile; otherwise the hands would pass through the rising thighs."""
+
+_MIDWAY = (0.25, 0.5, 0.75)
+"""Shares of the way at which a detour is measured."""
 
 _THERE_AND_BACK = MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0})
 """A quarter to come, half to stay, a quarter to go."""
@@ -106,7 +109,7 @@ class PostureMotionUnit(MotionUnit):
     def _shortest(self) -> float:
         """Return the shortest duration of the change, s."""
         goal = self.body.posed({}, self._from.root)
-        limbs = moving_time((self._from, goal), self.joints)
+        limbs = moving_time((self._from, *self._midway(self._from), goal), self.joints)
         pelvis = 0.0 if self._root is None else distance(self._from.root, self._root) / ROOT_SPEED
         return min(self.fade_in or 0.0, from_rest(lag(minimum_jerk) * max(limbs, pelvis), self.joints))
 
@@ -134,10 +137,20 @@ class PostureMotionUnit(MotionUnit):
 
     def _duration_from(self, begin: Body) -> float:
         """Return the duration of the change, s: less than a second for the arms alone, almost two for sitting down."""
-        hands, feet = (path_length(joint, SIDES, (begin, self.body)) for joint in ("wrist", "ankle"))
+        hands = path_length("wrist", SIDES, (begin, *self._midway(begin), self.body))
+        feet = path_length("ankle", SIDES, (begin, self.body))
         pelvis = distance(begin.root, self.body.root)
         # For feet, lifting and setting them down in turn matters more than distance.
         return max(0.5, 0.3 + 1.0 * hands, 0.4 + 1.7 * math.sqrt(feet), 0.5 + 2.2 * pelvis)
+
+    def _midway(self, begin: Body) -> list[Body]:
+        """Return bodies on the way from a body, with its root, if the arms make a detour."""
+        layers = (
+            Layer(self.kind, self._detour.turned(self._goal, weight), weight)
+            for weight in _MIDWAY
+            if self._detour.turns
+        )
+        return [over(begin, layer) for layer in layers]
 
     def start(self, body: Body) -> None:
         """Start. The base posture may differ from the expected one, and another posture may still play."""

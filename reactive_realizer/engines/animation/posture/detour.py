@@ -24,7 +24,7 @@ _TURNED = {side: (f"{side}_shoulder", f"{side}_elbow") for side in SIDES}
 _WEIGHTS = tuple(number / 15 for number in range(1, 15))
 """Shares of the way at which the arms are looked at."""
 
-_STEPS = 2
+_STEPS = 4
 """Steps of the solution; what it leaves, the figure keeps clear of in each frame."""
 
 _ENOUGH = 0.03

@@ -47,6 +47,9 @@ _PELVIS_ROLL = 1.3
 _ARM_SWING, _RUNNING_ARM_SWING = 0.55, 0.75
 """Swing of each arm with the foot of the other side, rad per meter between the feet."""
 
+_ASIDE = 0.06
+"""How much further arms are raised aside while they swing past the hips, rad."""
+
 _ELBOW, _RUNNING_ELBOW = 0.2, 1.2
 """Bend of the elbows, beside that at rest, rad."""
 
@@ -146,12 +149,13 @@ def _arms(progression: Progression, feet: Sequence[FootPose], rest: Body) -> Map
     runs = progression.goal is not None and progression.goal.manner.flies
     running = smoothstep(share(speed, _RUNNING_FROM, _RUNNING_AT)) if runs else 0.0
     swing = _ARM_SWING + running * (_RUNNING_ARM_SWING - _ARM_SWING)
-    bent = _ELBOW * smoothstep(share(abs(speed), 0.0, 1.0)) + running * _RUNNING_ELBOW
+    going = smoothstep(share(abs(speed), 0.0, 1.0))
+    bent, aside = _ELBOW * going + running * _RUNNING_ELBOW, _ASIDE * going
     turns = {}
-    for side, forward in (("l", swing * apart), ("r", -swing * apart)):
+    for side, forward, outward in (("l", swing * apart, aside), ("r", -swing * apart, -aside)):
         bend = bent + _FORWARD_ELBOW * max(0.0, forward)
         shoulder, elbow = f"{side}_shoulder", f"{side}_elbow"
-        turns[shoulder] = multiply(from_euler(-forward, 0.0, 0.0), rest.rotation(shoulder))
+        turns[shoulder] = multiply(from_euler(-forward, 0.0, outward), rest.rotation(shoulder))
         turns[elbow] = multiply(from_euler(-bend, 0.0, 0.0), rest.rotation(elbow))
     return turns
 
