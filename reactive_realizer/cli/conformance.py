@@ -6,6 +6,7 @@ import json
 from collections import Counter
 from collections.abc import AsyncIterator, Mapping
 
+from reactive_realizer.cli.realize import seconds
 from reactive_realizer.conformance.case import PROFILES, Profile, read_suite
 from reactive_realizer.conformance.connection import Connection, ProgramConnection, SocketConnection
 from reactive_realizer.conformance.suite import PATIENCE, TOLERANCE, Outcome, Verdict, run_suite
@@ -29,14 +30,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--profile",
         action="append",
-        choices=[*Profile, _ALL],
+        choices=[*(profile.value for profile in Profile), _ALL],
         metavar="NAME",
         help=f"also assert, besides {PROFILES[Profile.BML]}: "
         + "; ".join(f"{profile}: {text}" for profile, text in PROFILES.items() if profile is not Profile.BML)
         + f"; {_ALL} of these",
     )
     parser.add_argument(
-        "--tolerance", type=float, default=TOLERANCE, metavar="S", help=f"tolerance of times; {TOLERANCE:g} by default"
+        "--tolerance",
+        type=seconds,
+        default=TOLERANCE,
+        metavar="S",
+        help=f"tolerance of times; {TOLERANCE:g} by default",
     )
     parser.add_argument("--json", action="store_true", help="print a JSON object instead of a table")
     parser.add_argument(

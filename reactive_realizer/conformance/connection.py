@@ -176,7 +176,10 @@ class ProgramConnection(Connection):
 
     async def _receive(self) -> None:
         assert self._process.stdout is not None
-        line = await self._process.stdout.readline()
+        try:
+            line = await self._process.stdout.readline()
+        except ValueError as problem:
+            raise self._not_reached(f"it wrote a line of more than {_LONGEST_LINE} bytes") from problem
         if not line:
             raise self._not_reached(f"it ended with status {await self._process.wait()}")
         text = line.decode(errors="replace").strip()

@@ -99,7 +99,10 @@ class _Runner:
         if not await self._client.send(f'<bml xmlns="{BML}" id="{id_}" composition="REPLACE"/>'):
             self._client.check_alive()
             return [_UNANSWERED]
-        return await self._wait([f"{id_}:end"])
+        missed = await self._wait([f"{id_}:end"])
+        if missed:
+            self._client.check_alive()
+        return missed
 
     async def _play(self, case: ConformanceCase) -> list[str]:
         """Sends the documents of a case and waits for its end; returns the messages that did not arrive in time."""

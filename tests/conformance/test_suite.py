@@ -131,13 +131,30 @@ async def test_a_realizer_may_be_a_program_that_reads_and_writes_lines(
         ("no-such-program", "no-such-program"),
         ('unclosed "quote', "No closing quotation"),
         (f'{sys.executable} -c "raise SystemExit(3)"', "it ended with status 3"),
+        (f'{sys.executable} -c "print(17_000_000 * chr(65))"', "it wrote a line of more than 16000000 bytes"),
     ],
-    ids=["none", "no command", "ends"],
+    ids=["none", "no command", "ends", "endless line"],
 )
 async def test_the_exit_status_is_2_if_the_program_cannot_be_tested(
     capsys: pytest.CaptureFixture[str], program: str, said: str
 ) -> None:
     assert await conformance("--program", program, "--case", "empty") == 2
+    assert said in capsys.readouterr().err
+
+
+async def test_the_exit_status_is_2_if_the_program_says_nothing(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(command, "PATIENCE", 0.05)
+    program = f'{sys.executable} -c "import sys; sys.stdin.read()"'
+    assert await conformance("--program", program) == 2
+    assert "sent no message for 0.05 s" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("option", "said"), [("--tolerance=nan", "nan"), ("--profile=x", "'bml', 'bmla', 'pred")])
+def test_options_without_a_meaning_are_refused(capsys: pytest.CaptureFixture[str], option: str, said: str) -> None:
+    with pytest.raises(SystemExit):
+        main(["conformance", "--program", "true", option])
     assert said in capsys.readouterr().err
 
 
