@@ -9,10 +9,11 @@ from reactive_realizer.bml.extensions import FACES, Activate, AudioFile, Emit, I
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.names import OWN, Location
+from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.planunit.body_parts import BodyPart, parts_of
 
-UNMOVING = {Wait, Activate, Interrupt, ParameterValueChange, Emit, AudioFile, IdleChange}
+UNMOVING = {Wait, Activate, Interrupt, ParameterValueChange, Emit, AudioFile, IdleChange, Release}
 WITH_POSES = {Posture, PostureShift, KeyPoses}
 
 

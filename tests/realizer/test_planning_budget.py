@@ -343,3 +343,16 @@ async def test_a_block_may_be_interrupted_while_one_that_names_its_points_is_pla
     dropped = [text for text in slow.feedback.raw if "big:w0" in text and "has ended" in text]
     assert slow.feedback.reached("big:w0:start") is not bool(dropped)
     assert slow.feedback.status("big") == "DONE"
+
+
+async def test_a_behavior_stays_with_the_point_that_it_awaits_while_its_block_is_late(slow: RealizerPilot) -> None:
+    slow.predict("partner", "hit", 0.62)
+    slow.block(
+        "b",
+        '<head id="p" lexeme="NOD"/><gesture id="q" lexeme="BEAT" mode="RIGHT_HAND"/>'
+        '<constraint><after ref="anticipators:partner:hit"><sync ref="p:start"/></after></constraint>'
+        '<constraint><after ref="q:stroke"><sync ref="p:stroke"/></after></constraint>',
+    )
+    await slow.advance(0.8)
+    assert slow.feedback.time("b:start") > 0.0
+    assert slow.feedback.time("b:p:start") == pytest.approx(0.62)

@@ -75,9 +75,13 @@ class RootRules:
                 else:
                     self.rules[first].after.append(Position(order.earlier, order.distance + ahead))
         for first, start in starts.items():
-            planned = self._network.first_times[first]
-            earliest = max([start, *map(self._least, self.rules[first].after)])
-            self.rules[first].natural = AfterStart(planned if abs(planned - earliest) > TIE_TOLERANCE else start)
+            self.rules[first].natural = self._beginning(first, start)
+
+    def _beginning(self, first: int, start: float) -> AfterStart:
+        """At an offset (s), if the present bounds of the first root are what keeps it there, otherwise as planned."""
+        planned = self._network.first_times[first]
+        earliest = max([start, *map(self._least, self.rules[first].after)])
+        return AfterStart(planned if abs(planned - earliest) > TIE_TOLERANCE else start)
 
     def _least(self, position: Position) -> float:
         """The time of a position, s after the block's start; of an unknown one the least that constraints allow."""
@@ -239,12 +243,18 @@ class RootRules:
         rules = [(self.rules[peg.root], needed.root) for peg, needed in bounds]
         stops = [(held, root) for rule, root in rules for held in (rule.floors, rule.ceilings)]
         dropped = [(held, root) for held, root in stops if any(position.root == root for position in held)]
-        if not dropped:
-            peg, needed = min(bounds, key=lambda pair: (self._network.first_times[pair[0].root], pair))
-            rule = self.rules[peg.root]
-            dropped = [(rule.after if needed.bounded else rule.before, needed.root)]
-            within = self._network.clusters[peg.root] == self._network.clusters[needed.root]
-            if isinstance(rule.natural, AfterStart) and not within:
-                rule.natural = AfterStart(self._network.first_times[peg.root])
-        for held, root in dropped:
+        if dropped:
+            self._drop(dropped)
+            return
+        peg, needed = min(bounds, key=lambda pair: (self._network.first_times[pair[0].root], pair))
+        rule = self.rules[peg.root]
+        self._drop([(rule.after if needed.bounded else rule.before, needed.root)])
+        within = self._network.clusters[peg.root] == self._network.clusters[needed.root]
+        if isinstance(rule.natural, AfterStart) and not within:
+            rule.natural = self._beginning(peg.root, rule.natural.offset)
+
+    @staticmethod
+    def _drop(bounds: Iterable[tuple[list[Position], int]]) -> None:
+        """Drop the bounds on some roots from lists of bounds."""
+        for held, root in bounds:
             held[:] = [position for position in held if position.root != root]
