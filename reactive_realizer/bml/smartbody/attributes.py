@@ -41,6 +41,11 @@ def take_number(tree: Tree, name: str, source: BlockSource, low: float, high: fl
         raise source.bad_attribute(tree, name, text, refused) from None
 
 
+def give_back(tree: Tree, name: str, value: str) -> None:
+    """Writes an attribute again whose value is unknown, so that `left_out` names it."""
+    tree.set(f"{_PREFIX}{name}", value)
+
+
 def drop(tree: Tree, *names: str) -> None:
     """Removes attributes that make no difference here."""
     for name in names:

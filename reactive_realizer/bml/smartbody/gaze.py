@@ -7,6 +7,7 @@ from reactive_realizer.bml.attribute_types import Float
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.smartbody.attributes import (
     drop,
+    give_back,
     left_out,
     rename,
     set_parameter,
@@ -84,7 +85,10 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
 
 def _choose_joints(tree: Tree, source: BlockSource) -> None:
     """From the lowest to the highest of the joints that are named, as SmartBody does."""
-    named = [_KEYS[key] for key in take(tree, "joint-range").upper().split() if key in _KEYS]
+    keys = take(tree, "joint-range").upper().split()
+    named = [_KEYS[key] for key in keys if key in _KEYS]
+    if keys and not named:
+        give_back(tree, "joint-range", " ".join(keys))
     if not named or "influence" in tree.attrib:
         return
     groups = list(_INFLUENCES)

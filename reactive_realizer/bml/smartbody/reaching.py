@@ -8,6 +8,7 @@ from reactive_realizer.bml.names import OWN
 from reactive_realizer.bml.smartbody.attributes import (
     OTHER_POINTS,
     drop,
+    give_back,
     left_out,
     rename,
     set_parameter,
@@ -38,15 +39,17 @@ def adapt_reach(tree: Tree, source: BlockSource) -> list[Fault]:
     rename(tree, "target-pos", "target")
     action = take(tree, "action").lower()
     finishes = take(tree, "reach-finish").lower() == "true"
+    if action and action not in (*_ACTIONS, _POINTS):
+        give_back(tree, "action", action)
     drop(tree, "handle", "foot-ik")
     if finishes or "target" not in tree.attrib:
         released = _ACTIONS.get(action) is Reach.PUT
-        _choose_hand(tree, take(tree, "reach-type") or take(tree, "reach-arm"))
+        _choose_hand(tree, "reach-type", "reach-arm")
         return _release(tree, source) if released else _nothing(tree, source)
     hold = take_number(tree, "reach-duration", source, -1.0, _LONGEST)
     if hold is not None and hold >= 0.0:
         set_parameter(tree, _HOLD, f"{hold:g}", source)
-    _choose_hand(tree, take(tree, "reach-type") or take(tree, "reach-arm"))
+    _choose_hand(tree, "reach-type", "reach-arm")
     return _go(tree, "" if action == _POINTS else _ACTIONS.get(action, Reach.TOUCH), source)
 
 
@@ -54,7 +57,7 @@ def adapt_grab(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a grab, in place: the hand takes its target, if it has one, or lets go of what it carries."""
     releases = take(tree, "release-pawn").lower() == "true"
     drop(tree, "handle", "grab-state")
-    _choose_hand(tree, take(tree, "grab-type"))
+    _choose_hand(tree, "grab-type")
     if "target" not in tree.attrib:
         return _release(tree, source) if releases else _nothing(tree, source)
     return _go(tree, Reach.TAKE, source)
@@ -63,7 +66,7 @@ def adapt_grab(tree: Tree, source: BlockSource) -> list[Fault]:
 def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a constraint of the place of a hand, in place."""
     drop(tree, "handle", "effector-root", "root", "constraint-type")
-    _choose_hand(tree, take(tree, "effector").partition("_")[0])
+    _choose_hand(tree, "effector")
     for name, point, other, sign in (("fade-in", "ready", "start", 1.0), ("fade-out", "relax", "end", -1.0)):
         seconds = take_number(tree, name, source, 0.0, _LONGEST)
         if seconds:
@@ -80,10 +83,15 @@ def is_of_hand(constraint: Tree) -> bool:
     return side in _HANDS and joint.startswith(("wrist", "hand", "index", "middle")) and kind.lower() == "pos"
 
 
-def _choose_hand(tree: Tree, side: str) -> None:
-    hand = _HANDS.get(side.lower())
-    if hand is not None:
-        tree.set("mode", hand)
+def _choose_hand(tree: Tree, *attributes: str) -> None:
+    """Writes the hand that the first of some attributes names, by its side or by a joint such as ``r_wrist``."""
+    for name in reversed(attributes):
+        named = take(tree, name)
+        hand = _HANDS.get(named.lower().partition("_")[0])
+        if hand is not None:
+            tree.set("mode", hand)
+        elif named:
+            give_back(tree, name, named)
 
 
 def _go(tree: Tree, action: str, source: BlockSource) -> list[Fault]:

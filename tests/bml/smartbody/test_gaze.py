@@ -92,6 +92,11 @@ def test_what_a_gaze_cannot_do_is_told_in_one_warning() -> None:
     assert sentence == "sbm:priority-joint, sbm:fade-out of SmartBody has no effect on <gaze> here"
 
 
+def test_joints_that_no_gaze_has_are_told() -> None:
+    (sentence,) = told('<gaze target="x" sbm:joint-range="TOES"/>')
+    assert sentence == "sbm:joint-range of SmartBody has no effect on <gaze> here"
+
+
 @pytest.mark.parametrize(
     ("written", "rate"), [('mode="talk"', 14.8), ('mode="listen"', 7.2), ('mode="think"', 20.0), ('finish="true"', 0.0)]
 )

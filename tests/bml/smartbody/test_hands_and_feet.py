@@ -6,7 +6,7 @@ from reactive_realizer.bml.behaviors import REACH, Locomotion, Pointing, Wait
 from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import Mode
 
-from .reading import behaviors, only
+from .reading import behaviors, only, told
 
 
 def test_a_way_has_a_speed_a_distance_and_a_direction_to_face() -> None:
@@ -88,6 +88,12 @@ def test_a_reach_may_walk_to_its_target_first() -> None:
     assert (walk.target, str(walk.syncs["start"]), dict(walk.parameters)) == ("box", "2", {"distance": "0.4"})
     assert isinstance(reach, Pointing)
     assert str(reach.syncs["start"]) == f"{walk.id}:end"
+
+
+def test_an_unknown_action_and_an_unknown_hand_of_a_reach_are_named() -> None:
+    reach = '<sbm:reach target="bluebox" sbm:action="juggle" sbm:reach-type="foot"/>'
+    (sentence,) = told(reach)
+    assert sentence == "sbm:action, sbm:reach-type of SmartBody has no effect on <reach> here"
 
 
 def test_a_way_along_several_points_is_several_ways() -> None:
