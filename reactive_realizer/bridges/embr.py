@@ -85,21 +85,29 @@ class EmbrBridge:
     Args:
         send: sends a message to the realizer.
         report: sends a report, as XML in UTF-8.
+        limits: of the connections at the same time, and of the size and time of a script.
     """
 
     def __init__(
-        self, send: Callable[[Mapping[str, object]], Awaitable[None]], report: Callable[[bytes], object]
+        self,
+        send: Callable[[Mapping[str, object]], Awaitable[None]],
+        report: Callable[[bytes], object],
+        limits: Limits | None = None,
     ) -> None:
         self._send = send
         self._report = report
-        self._limits = Limits()
+        self._limits = limits or Limits()
+        self._open = 0
 
     async def take(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         """Take the script of a connection; one without text only tests whether the port is open.
 
         A request of HTTP is refused, because any page that is open in a browser here can send one.
         """
+        self._open += 1
         try:
+            if self._open > self._limits.connections:
+                raise ValueError(f"the limit of open connections is {self._limits.connections}")
             async with asyncio.timeout(self._limits.body_seconds):
                 script = await _all_of(reader, self._limits.message_bytes)
             if _HTTP.match(script):
@@ -112,6 +120,7 @@ class EmbrBridge:
         except RealizerError as lost:
             logger.warning("a script is lost: %s", lost.fault.sentence)
         finally:
+            self._open -= 1
             writer.close()
 
     def report(self, message: Mapping[str, Any]) -> None:

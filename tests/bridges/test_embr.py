@@ -11,7 +11,7 @@ from aiohttp.test_utils import TestServer
 from lxml import etree
 
 from reactive_realizer.__main__ import main
-from reactive_realizer.bridges.embr import Address, run_bridge
+from reactive_realizer.bridges.embr import Address, EmbrBridge, run_bridge
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.server.live_scene import LiveScene
@@ -121,6 +121,28 @@ async def test_a_script_that_is_too_long_is_refused_and_an_empty_connection_mean
         await client.send("#" * (Limits().message_bytes + 1))
         warning = await client.hear("warningFeedback", "blockProgress")
         assert "has more than 1200000 bytes" in (warning.text or "")
+
+
+async def test_only_so_many_connections_are_open_at_once() -> None:
+    sent = asyncio.Event()
+    reports: list[bytes] = []
+
+    async def send(message: object) -> None:
+        sent.set()
+
+    bridge = EmbrBridge(send, reports.append, Limits(connections=1))
+    async with await asyncio.start_server(bridge.take, "127.0.0.1", 0) as server:
+        address = server.sockets[0].getsockname()
+        _, first = await asyncio.open_connection(*address)
+        first.write(SCRIPT.encode())
+        await first.drain()
+        refused, second = await asyncio.open_connection(*address)
+        assert await refused.read() == b""
+        assert b"the limit of open connections is 1" in reports[0]
+        for writer in (first, second):
+            writer.close()
+            await writer.wait_closed()
+        await asyncio.wait_for(sent.wait(), LIMIT)
 
 
 async def test_a_page_in_a_browser_cannot_send_a_script(live: tuple[LiveScene, str]) -> None:
