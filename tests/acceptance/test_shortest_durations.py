@@ -87,9 +87,9 @@ async def test_a_pointing_that_has_too_little_time_is_ready_when_it_can_be(pilot
     await pilot.advance(3)
     (text,) = texts(pilot, "b:p")
     assert "p:ready = 0.55 is dropped" in text
-    assert "p from start to ready: needs 0.31 s, has 0.05 s" in text
+    assert "p from start to ready: needs 0.30 s, has 0.05 s" in text
     assert pilot.feedback.time("b:p:start") == 0.5
-    assert pilot.feedback.time("b:p:ready") > 0.5 + 0.31
+    assert pilot.feedback.time("b:p:ready") > 0.5 + 0.30
 
 
 async def test_a_warning_shows_a_shortage_of_less_than_a_hundredth_of_a_second(pilot: RealizerPilot) -> None:
