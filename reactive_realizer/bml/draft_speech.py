@@ -79,11 +79,16 @@ def _wrap_text(tree: Tree, said: str, source: BlockSource) -> None:
 
 def _say(text: Tree, pieces: Iterable[str], before: Tree | None = None) -> None:
     """Sets the text in front of a child of an element, or behind the last one."""
-    last = before.getprevious() if before is not None else text[-1] if len(text) else None
+    last = before.getprevious() if before is not None else _last_child(text)
     if last is None:
         text.text = "".join(pieces)
     else:
         last.tail = "".join(pieces)
+
+
+def _last_child(tree: Tree) -> Tree | None:
+    """The last child of an element; to ask for the number of children would take time for each of them."""
+    return next(tree.iterchildren(reversed=True), None)
 
 
 def _describe_file(tree: Tree, ref: str, source: BlockSource) -> None:
@@ -191,8 +196,8 @@ def _describe(
             _add_last(speak, "break", breaks[number], source)
         if levels[number] and piece.text.strip():
             _add_last(speak, "emphasis", {"level": levels[number]}, source).text = piece.text
-        elif len(speak):
-            speak[-1].tail = piece.text
+        elif (last := _last_child(speak)) is not None:
+            last.tail = piece.text
         else:
             speak.text = piece.text
 

@@ -56,11 +56,13 @@ POSES: dict[str, Callable[[], Any]] = {
 
 @pytest.fixture
 def plugin(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Open:
-    """Opens a scene with a kind of motion, made by a function that gets the request."""
+    """Opens a scene with a kind of motion, made by a function that gets the request; None for a broken maker."""
 
     @asynccontextmanager
-    async def open_(make: Callable[[MotionRequest], object], name: str = "tilt") -> AsyncIterator[RealizerPilot]:
+    async def open_(make: Callable[[MotionRequest], object] | None, name: str = "tilt") -> AsyncIterator[RealizerPilot]:
         def maker(context: MakerContext) -> Callable[[MotionRequest], object]:
+            if make is None:
+                raise ZeroDivisionError
             return make
 
         monkeypatch.setattr(f"{SCENE}.names", lambda group: [name] if group == "motions" else names(group))
@@ -111,6 +113,33 @@ async def test_a_maker_that_raises_is_dropped_with_a_warning(plugin: Open) -> No
         await pilot.advance(3)
     assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:t"]
     assert pilot.feedback.time("b:g:end") > 1.0
+
+
+@pytest.mark.parametrize(("name", "value"), [("kind", "upper body"), ("preferred_duration", math.inf)])
+async def test_a_motion_that_cannot_be_played_with_others_is_dropped_with_the_reason(
+    plugin: Open, name: str, value: object
+) -> None:
+    def make(request: MotionRequest) -> Tilt:
+        tilt = Tilt(lambda: MotionPose({"skullbase": IDENTITY}))
+        setattr(tilt, name, value)
+        return tilt
+
+    async with plugin(make) as pilot:
+        pilot.block("b", BLOCK)
+        await pilot.advance(3)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert warning.id == "b:t"
+    assert "the motion 'tilt' of a plug-in has the" in str(warning.text)
+    assert pilot.feedback.time("b:g:end") > 1.0
+
+
+async def test_a_maker_that_cannot_be_created_is_left_out(plugin: Open, caplog: pytest.LogCaptureFixture) -> None:
+    async with plugin(None) as pilot:
+        pilot.block("b", BLOCK)
+        await pilot.advance(3)
+    assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:t"]
+    assert pilot.feedback.time("b:g:end") > 1.0
+    assert "the kind of motion 'tilt' of a plug-in cannot be created" in caplog.text
 
 
 async def test_a_name_of_the_package_is_refused(plugin: Open) -> None:

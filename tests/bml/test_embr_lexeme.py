@@ -102,3 +102,8 @@ def test_a_file_whose_poses_all_have_a_fault_is_refused_with_the_first_one() -> 
 
 def test_a_file_may_begin_with_a_mark_of_its_encoding() -> None:
     assert read_lexeme(STROKE.encode("utf-8-sig")) == read_lexeme(STROKE)
+
+
+def test_a_gesture_with_too_many_poses_is_refused() -> None:
+    with pytest.raises(RealizerError, match="201 poses; at most 200"):
+        read_lexeme(script(*(("", 100 * number, 0, RIGHT.format(0.1)) for number in range(1, 202))))

@@ -88,6 +88,15 @@ class NotRealized(ParsingFault):
     reason: str
 
 
+class TooManyPoses(ParsingFault):
+    """A gesture with more poses than are read."""
+
+    code = "embr-too-many-poses"
+    template = "the gesture has {poses} poses; at most {limit} are read"
+    poses: int
+    limit: int
+
+
 class NoSequence(ParsingFault):
     """A script without sequences."""
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from reactive_realizer.bml.embr.faults import NoSequence, TimeBack, UnknownName
+from reactive_realizer.bml.embr.faults import NoSequence, TimeBack, TooManyPoses, UnknownName
 from reactive_realizer.bml.embr.nucleus import Nuclei
 from reactive_realizer.bml.embr.sequence import SequenceReader
 from reactive_realizer.bml.embr.syntax import SEQUENCE, read_nodes, text_of
@@ -15,6 +15,8 @@ from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.limits import Limits
 
+_MOST_POSES: Final = 200
+"""Limit of the poses of a gesture; EMBOTS's have up to ten."""
 _START, _END = "start", "end"
 _POINTS: Final[Mapping[str, str]] = MappingProxyType(
     {
@@ -54,7 +56,7 @@ def read_lexeme(document: str | bytes) -> EmbrLexeme:
 
     Raises:
         RealizerError: there is no sequence with a key pose of the body: "embr-no-sequence", or the first fault of the
-            file.
+            file; "embr-too-many-poses".
     """
     script, faults = read_nodes(text_of(document))
     sequences = [node for node in script.children if node.name == SEQUENCE]
@@ -65,6 +67,11 @@ def read_lexeme(document: str | bytes) -> EmbrLexeme:
     notes.faults += faults
     for other in others:
         notes.left_out("another K_POSE_SEQUENCE", "a gesture has only one", other.location)
+    if len(sequence.children) > _MOST_POSES:
+        place = sequence.location
+        raise RealizerError(
+            TooManyPoses(poses=len(sequence.children), limit=_MOST_POSES).located(place.line, place.column)
+        )
     poses = list(timed(sequence, 0.0, all_times))
     notes.faults += (each for each in all_times.faults if not isinstance(each, TimeBack))  # those are found again below
     begin = next((pose.reached for pose in poses if pose.node.sync == _START), 0.0)

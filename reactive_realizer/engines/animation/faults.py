@@ -15,6 +15,15 @@ class NoMotionFor(CreationFault):
     known: tuple[str, ...] = ()
 
 
+class BadMotion(CreationFault):
+    """A motion of a plug-in that cannot be played."""
+
+    code = "bad-motion"
+    template = "the motion '{kind}' of a plug-in {reason}"
+    kind: str
+    reason: str
+
+
 class NoUnit(CreationFault):
     """No kind of motion unit has the name."""
 

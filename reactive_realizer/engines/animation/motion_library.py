@@ -12,7 +12,6 @@ from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import REACH, REFERENCE, Head
 from reactive_realizer.bml.vocabulary import Influence
-from reactive_realizer.engine.faults import TwoPlugins
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates
 from reactive_realizer.engines.animation.faults import NoMotionFor, NoUnit
 from reactive_realizer.engines.animation.motion_maker import (
@@ -50,6 +49,7 @@ from reactive_realizer.engines.animation.motions.procedural import ProceduralMot
 from reactive_realizer.engines.animation.motions.release import ReleaseMaker
 from reactive_realizer.engines.animation.motions.sequence_maker import SequenceMaker
 from reactive_realizer.engines.animation.motions.transition import TransitionMaker
+from reactive_realizer.engines.animation.plugin_motions import PluginMakers, plugin_makers
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.planunit.parameter import spelled
 
@@ -87,19 +87,14 @@ MAKERS: Mapping[str, Callable[[MakerContext], MotionMaker]] = MappingProxyType(
 """Id of a kind of motion -> creates its maker for a figure."""
 
 
-PluginMakers = Mapping[str, Callable[[MakerContext], MotionMaker]]
-"""Those of plug-ins."""
-
-
 def makers_of(context: MakerContext, plugins: PluginMakers) -> Mapping[str, MotionMaker]:
     """Return the makers of a figure by the id of their kind. Sequences are made of the motions of the others.
 
     Raises:
         RealizerError: "two-plugins": a plug-in has the name of a kind of motion of the package.
     """
-    for kind in plugins.keys() & {*MAKERS, _SEQUENCE}:
-        raise RealizerError(TwoPlugins(name=kind, group="motions", known=("the package", "a plug-in")))
-    makers: dict[str, MotionMaker] = {kind: maker(context) for kind, maker in {**MAKERS, **plugins}.items()}
+    makers = plugin_makers(context, plugins, {*MAKERS, _SEQUENCE})
+    makers |= {kind: maker(context) for kind, maker in MAKERS.items()}
     makers[_SEQUENCE] = SequenceMaker(context, makers)
     return makers
 

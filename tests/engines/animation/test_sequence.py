@@ -244,6 +244,7 @@ async def test_a_sequence_of_a_file_plays_as_one_behavior_with_its_parts_points(
         (part('phases="0 0, 1 2"'), "a value from 0 to 1"),
         (part('phases="0 0, 1"'), "0 0, 0.5 1"),
         (part('phases="0 0, 1 1" end="2"'), "phases replaces end"),
+        (part('phases="0 0, 1e300 1"'), "phases='0 0, 1e300 1': it must be"),
         (part('weights="0 0, nan 1"'), "weights='0 0, nan 1': it must be"),
         (part('weights="0 0, 1 1" easeIn="0.2"'), "weights replaces easeIn"),
         (part('phases="0 0, 1 0.2"', '<KeyPosition id="x" ref="p:end"/>'), "no point 'p:end'"),

@@ -1,7 +1,6 @@
 """Reads sequence files, and makes sequences of the motions of other makers."""
 
 import logging
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -16,9 +15,12 @@ from reactive_realizer.engines.animation.motion_parameters import listed
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
 from reactive_realizer.engines.animation.motions.sequence import SequenceMotionUnit, SequencePart
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.limits import Limits
 
 _PARTS = ("ProcAnimation", "Gesture", "Keyframe", "noise", "Sequence")
 """Kinds of motions that may be parts. The engine handles others specially: gaze, transitions, and shifts."""
+
+_LONGEST = Limits().time_seconds
 
 _EASES = ("easeIn", "easeOut")
 
@@ -129,7 +131,7 @@ def _curve(element: XmlElement, name: str, *others: str) -> MonotoneCurve | None
     except ValueError:
         points = []
     times = [time for time, _ in points]
-    rising = times[:1] == [0.0] and all(earlier < later < math.inf for earlier, later in pairwise(times))
+    rising = times[:1] == [0.0] and all(earlier < later <= _LONGEST for earlier, later in pairwise(times))
     if len(points) < 2 or not rising or not all(0.0 <= value <= 1.0 for _, value in points):
         form = "two or more times, from 0 on and increasing, each with a value from 0 to 1: 0 0, 0.5 1"
         raise asset_error(element, f"{name}='{text}': it must be {form}")
