@@ -29,6 +29,8 @@ from reactive_realizer.bml.smartbody.saccades import adapt_saccade
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 from reactive_realizer.errors import Fault
 
+_ORIENT: Final = "ORIENT"
+"""The type of a movement of the head that turns it to a target."""
 _LONGEST: Final = 60.0
 _MOST_VELOCITY: Final = 20.0
 _STROKES: Final = {"SHAKE": (0.2, 0.5), "TOSS": (0.1, 0.6)}
@@ -82,6 +84,10 @@ def _interrupt(tree: Tree, source: BlockSource) -> list[Fault]:
 
 def _head(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a movement of the head; its axis and its duration make no difference in SmartBody either."""
+    if tree.get("type", "").upper() == _ORIENT and "target" in tree.attrib:
+        tree.tag = "headDirectionShift"
+        drop(tree, "type", "amount", "duration")
+        return left_out(tree, source)
     repeats = take_number(tree, "repeats", source, 0.0, MOST_REPETITIONS)
     velocity = take_number(tree, "velocity", source, 0.01, _MOST_VELOCITY)
     period = take_number(tree, "period", source, 0.01, _LONGEST)

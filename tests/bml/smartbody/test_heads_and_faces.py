@@ -2,7 +2,7 @@
 
 import pytest
 
-from reactive_realizer.bml.behaviors import Face, FaceFacs, Head
+from reactive_realizer.bml.behaviors import Face, FaceFacs, Head, HeadDirectionShift
 from reactive_realizer.bml.extensions import FaceFap
 from reactive_realizer.bml.vocabulary import Side
 
@@ -14,6 +14,12 @@ def test_a_nod_lasts_as_its_velocity_and_its_repeats_say() -> None:
     assert isinstance(head, Head)
     assert (head.repetition, head.amount, str(head.syncs["end"])) == (3, 0.2, "h:start+0.75")
     assert only('<head type="NOD" velocity="1"/>').syncs == {}
+
+
+def test_a_head_that_is_oriented_turns_to_its_target() -> None:
+    shift = only('<head id="h" type="ORIENT" target="bob" start="1" amount="1"/>')
+    assert isinstance(shift, HeadDirectionShift)
+    assert (shift.target, str(shift.syncs["start"])) == ("bob", "1")
 
 
 def test_a_tied_end_has_precedence_over_a_velocity() -> None:
