@@ -25,7 +25,7 @@ _MOST_PHASES: Final = 100
 """Phases of a gesture that are used."""
 _SIDES: Final = {"LEFT": "l", "RIGHT": "r"}
 _MIDDLE: Final = 0.5
-"""Where a hand is along an axis that its position does not name, lengths of the arm; as in Greta."""
+"""The place of a hand along an axis for which its position gives no location, lengths of the arm; as in Greta."""
 
 OUTWARD: Final[Mapping[str, float]] = MappingProxyType({"XEP": 0.8, "XP": 0.5, "XC": 0.25, "XCC": 0.0, "XOppC": -0.25})
 UPWARD: Final[Mapping[str, float]] = MappingProxyType(

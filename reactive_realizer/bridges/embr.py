@@ -25,7 +25,7 @@ logger = logging.getLogger(__name__)
 MEDIA_TYPE: Final = "application/vnd.embr"
 
 _HTTP: Final = re.compile(rb"[A-Z]+ [^\s]+ HTTP/")
-"""How a request of HTTP begins."""
+"""The first line of an HTTP request."""
 
 _REPORTED: Final = ("blockProgress", "syncPointProgress", "warningFeedback")
 """The feedback of BML 1.0. Predictions, which change while a block plays, are not reported."""
@@ -35,9 +35,9 @@ Address = tuple[str, int]
 """A host and a port."""
 
 LISTEN: Final = ("localhost", 5555)
-"""Where EMBR takes scripts."""
+"""The address at which EMBR receives scripts."""
 FEEDBACK: Final = ("localhost", 5556)
-"""Where EMBOTS takes feedback."""
+"""The address at which EMBOTS receives feedback."""
 
 
 async def run_bridge(
@@ -139,7 +139,7 @@ class EmbrBridge:
 
 
 async def _all_of(reader: asyncio.StreamReader, most: int) -> bytes:
-    """What is read until the connection is closed.
+    """Read until the connection is closed.
 
     Raises:
         ValueError: it is too long.

@@ -19,7 +19,7 @@ _AGENT_BML: Final = "vrAgentBML"
 _REQUEST: Final = "request"
 _COMMAND: Final = "sbm"
 _PLAY: Final = re.compile(r"bml\s+char\s+(\S+)\s+(?=<)")
-"""What a command of SmartBody that plays BML begins with."""
+"""The beginning of a SmartBody command that plays BML, with the name of the character."""
 _PROLOG: Final = re.compile(r"\s*(?:<\?xml\b.*?\?>)?\s*(?:<!DOCTYPE[^\[>]*>)?", re.DOTALL)
 _ROOT: Final = '<_ xmlns:sbm="urn:smartbody">{}</_>'
 """Scripts of SmartBody use its prefix without declaring it."""

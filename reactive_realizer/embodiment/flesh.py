@@ -1,6 +1,7 @@
 """The flesh of a figure in a pose, for finding points that are in it: trunk, thighs and head as tubes around axes."""
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from math import atan2, floor
 from typing import NamedTuple
@@ -59,7 +60,7 @@ class Windows(NamedTuple):
     distances: tuple[tuple[float, ...], ...]
 
 
-class Flesh:
+class Flesh(ABC):
     """A part of a figure: a tube around an axis, which may be twisted and bent.
 
     Args:
@@ -148,13 +149,13 @@ class Flesh:
                     found.append(index)
         return found
 
+    @abstractmethod
     def find(self, body: Body) -> None:
         """Set where the axis is in a body, and how it is bent."""
-        raise NotImplementedError
 
+    @abstractmethod
     def pose(self, body: Body) -> None:
         """Set the directions about the axis, after `find`."""
-        raise NotImplementedError
 
     def contacts(
         self, points: Sequence[Vec3], radii: Sequence[float], within: float, which: Iterable[int] | None = None
