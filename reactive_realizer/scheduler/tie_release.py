@@ -83,10 +83,11 @@ class TieRelease:
         dependent = _dependents_of({point.behavior for point in missed}, block.kept)
         others = [unit for unit in block.live_units if unit.behavior.id not in dependent]
         living = {point.peg for unit in others for point in unit.ahead()}
-        old = dict.fromkeys(missed.values())
-        pegs = [peg for peg in old if not peg.pinned and living.isdisjoint({peg, *followers_of(peg)})]
+        rigid = [unit for unit in block.live_units if unit.behavior.id in dependent and unit.timing.rigid]
+        held = {peg: _held_with(peg, rigid) for peg in dict.fromkeys(missed.values()) if not peg.pinned}
+        pegs = [peg for peg, each in held.items() if living.isdisjoint(_with_followers(each))]
         with self._board.graph.transaction(f"cut a part of {block.key.block}"):
-            for peg in pegs:
+            for peg in dict.fromkeys(each for peg in pegs for each in held[peg]):
                 peg.pin(peg.value)
             block.update_end()
         warned = self.release_from(block.key, pegs, time, kind, began=block.state.plays)
@@ -159,6 +160,17 @@ class TieRelease:
         own = (ref for ref in refs if (ref.block or unit.block.block) == owner.block)
         keys = (PegKey(*owner, ref.behavior, ref.sync or "start") for ref in own)
         return next((str(key) for key in keys if self._board.get(key) is peg), peg.name)
+
+
+def _held_with(peg: TimePeg, rigid: Iterable[PlanUnit]) -> list[TimePeg]:
+    """A peg, and the pegs of rigid behaviors of which a point follows it: these keep their times as a whole."""
+    followed = _with_followers([peg])
+    ahead = ([point.peg for point in unit.ahead() if not point.peg.pinned] for unit in rigid)
+    return [peg, *(each for pegs in ahead if not followed.isdisjoint(pegs) for each in pegs)]
+
+
+def _with_followers(pegs: Iterable[TimePeg]) -> set[TimeCell]:
+    return {cell for peg in pegs for cell in (peg, *followers_of(peg))}
 
 
 def _dependents_of(named: Collection[str], kept: Iterable[Tie | Precedence]) -> set[str]:

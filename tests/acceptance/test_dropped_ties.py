@@ -102,6 +102,21 @@ async def test_a_behavior_tied_to_one_dropped_in_a_conflict_keeps_its_time_with_
     assert pilot.feedback.status("b") == "DONE"
 
 
+async def test_a_rigid_behavior_keeps_its_time_as_a_whole(pilot: RealizerPilot) -> None:
+    """The anchor of the dropped gesture, a second after its start, still moves; the start of the wait hung on it."""
+    pilot.predict("t", "hit", 1.5)
+    pilot.block(
+        "b", HOLDS + f'<gesture id="g" lexeme="BEAT" mode="RIGHT_HAND" start="{HIT}-1"/>' + wait("w", 0.4, end="g:end")
+    )
+    await pilot.advance(0.6)
+    assert [id_ for id_, _ in pilot.feedback.warnings] == ["b:g", "b:w"]
+    end = pilot.feedback.predicted("b:w:end")
+    pilot.predict("t", "hit", 1.7)
+    await pilot.advance(5)
+    assert pilot.feedback.time("b:w:end") == end
+    assert pilot.feedback.time("b:w:start") == pytest.approx(end - 0.4)
+
+
 @pytest.mark.parametrize("start", ["g:start", "g:stroke"])
 async def test_a_wait_for_an_event_keeps_its_start_too(pilot: RealizerPilot, start: str) -> None:
     waits = f'<wait id="w" event="told" start="{start}"/>'
