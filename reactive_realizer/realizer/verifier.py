@@ -2,7 +2,7 @@
 
 import logging
 from dataclasses import replace
-from weakref import WeakKeyDictionary
+from weakref import WeakKeyDictionary, WeakSet
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import WarningType
@@ -26,7 +26,8 @@ class Verifier:
     A committed plan is checked as a solution of its own problem, because its points may fire, and external times may
     change, before the tick is over. On the board, constraints are checked only if no external time has moved and no
     behavior has begun, because it takes the time that the body needs from its present posture; otherwise,
-    `ConstraintMonitor` reports the constraints that can no longer be satisfied.
+    `ConstraintMonitor` reports the constraints that can no longer be satisfied. It reports ties to times from outside
+    that were broken before the block played in the tick in which the block starts, after this check.
     """
 
     def __init__(self, scheduler: BMLScheduler, feedback: FeedbackManager) -> None:
@@ -34,6 +35,7 @@ class Verifier:
         self._feedback = feedback
         self._reported: WeakKeyDictionary[BMLBlock, set[tuple[str, tuple[str, ...]]]] = WeakKeyDictionary()
         self._given: WeakKeyDictionary[BMLBlock, tuple[object, ...]] = WeakKeyDictionary()
+        self._played: WeakSet[BMLBlock] = WeakSet()
         scheduler.listen_to_plans(self._hold)
 
     def check(self, now: GlobalTime) -> None:
@@ -46,7 +48,9 @@ class Verifier:
         self._verify(block, PlanView.of_solution(problem, solution))
 
     def _judge(self, block: BMLBlock, now: GlobalTime) -> None:
-        plan = PlanView.of_block(block, now)
+        plan = PlanView.of_block(block, now, played=block in self._played)
+        if block.state.plays:
+            self._played.add(block)
         before = self._given.get(block)
         given = self._given[block] = (plan.start, plan.lurking, *plan.outer.values())
         self._verify(block, plan if given == before else replace(plan, settled=frozenset(plan.kept)))

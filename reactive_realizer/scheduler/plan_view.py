@@ -59,14 +59,19 @@ class PlanView:
         return cls(timings, layout.times, frozenset(), kept, outer, start=0.0, earliest=0.0, shortest=shortest)
 
     @classmethod
-    def of_block(cls, block: BMLBlock, now: GlobalTime) -> Self:
-        """A block on the board, in global times, at the end of the tick at ``now``."""
+    def of_block(cls, block: BMLBlock, now: GlobalTime, *, played: bool) -> Self:
+        """A block on the board, in global times, at the end of the tick at ``now``.
+
+        Args:
+            block: of which the plan is.
+            now: the time of the tick.
+            played: whether the block played before this tick; until then, ties to times from outside may be late.
+        """
         points = {Point(unit.behavior.id, p.id): p for unit in block.units for p in unit.coming()}
         start = block.start.value
-        # The start of the block waits for these, and may come later; a body was too slow for the others. Until the
-        # block starts, ties to times from outside may be late.
+        # The start of the block waits for these, and may come later; a body was too slow for the others.
         waited = (each for each in block.kept if not any(isinstance(node, Point) for node in each.nodes))
-        late = [] if block.state.plays else list(outer_ties(each for each in block.kept if isinstance(each, Tie)))
+        late = [] if played else list(outer_ties(each for each in block.kept if isinstance(each, Tie)))
         # What comes after a time to which a tie is late comes, until the block starts, after the time of that tie.
         hurried = {Point(unit.behavior.id, sync) for unit in block.units for sync in unit.hurries}
         missed = (each for each in block.kept if not hurried.isdisjoint(each.nodes))

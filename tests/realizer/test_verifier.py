@@ -96,6 +96,21 @@ async def test_a_constraint_that_a_time_from_outside_breaks_is_no_violation() ->
         assert said(pilot) == []
 
 
+async def test_a_tie_that_a_time_from_outside_breaks_before_its_block_starts_is_no_violation() -> None:
+    """Not even if the times from outside are the same in the tick in which the block starts."""
+    async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
+        pilot.predict("partner", "two", 0.5)
+        pilot.block("a", '<wait id="v" duration="1"/><bmla:emit id="e" event="asked" start="v:end"/>')
+        after = '<constraint><after ref="anticipators:partner:two"><sync ref="w:start"/></after></constraint>'
+        block = f'<wait id="w" duration="1" start="anticipators:events:asked"/>{after}'
+        pilot.block("b", block, composition="APPEND")
+        await pilot.advance(0.1)
+        pilot.predict("partner", "two", 3.0)
+        await pilot.advance(5)
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert "w:start = anticipators:events:asked no longer holds: it is off by 2.00 s" in warning.text
+
+
 async def test_a_start_at_a_time_that_is_corrected_a_little_after_it_has_come_is_no_violation() -> None:
     async with open_pilot(SceneOptions(voice="text", verify=True)) as pilot:
         pilot.predict("partner", "go", 1.0)

@@ -193,7 +193,7 @@ async def test_a_view_of_a_block_has_its_current_times() -> None:
         pilot.block("b", '<gesture id="g" lexeme="BEAT" stroke="anticipators:partner:hit"/>')
         await pilot.advance(1.5)
         (block,) = pilot.realizer.scheduler.blocks.alive
-        plan = PlanView.of_block(block, GlobalTime(1.5))
+        plan = PlanView.of_block(block, GlobalTime(1.5), played=True)
         assert plan.times[Point("g", "stroke")] == 2.0
         assert Point("g", "start") in plan.past
         assert plan.end == plan.times[Point("g", "end")]
