@@ -87,8 +87,8 @@ class TieRelease:
         held = {peg: _held_with(peg, rigid) for peg in dict.fromkeys(missed.values()) if not peg.pinned}
         pegs = [peg for peg, each in held.items() if living.isdisjoint(_with_followers(each))]
         with self._board.graph.transaction(f"cut a part of {block.key.block}"):
-            for peg in dict.fromkeys(each for peg in pegs for each in held[peg]):
-                peg.pin(peg.value)
+            for each in dict.fromkeys(chain.from_iterable(held[peg] for peg in pegs)):
+                each.pin(each.value)
             block.update_end()
         warned = self.release_from(block.key, pegs, time, kind, began=block.state.plays)
         tied = _tied_points(missed, block.kept)
