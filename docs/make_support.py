@@ -96,8 +96,10 @@ _NOTES = {
     "glance left": "degrees, as the character sees it",
     "glance up": "degrees",
     "release mode": "the hands that let go of what they carry",
-    "idleChange parameter": "breaths per minute, their depth relative to that at rest, blinks and glances per minute",
+    "idleChange parameter": "times per minute, at most 120, or 30 for the weight; depths relative to the usual, at \
+most 5 for breaths, 1 for blinks and 2 for the weight",
     "idleChange value": "reached at the end, evenly, and kept until another change",
+    "weightShift side": "the foot that supports a standing character: -1 the right one, 1 the left one",
     "keyPoses group": "the joints that move; only arms have `position` and `swivel`, and only heads `lookAt`",
     "keyPoses fadeIn": "time in which it takes over the joints",
     "keyPoses fadeOut": "time in which it releases them, from `relax` to `end`",
@@ -191,7 +193,7 @@ otherwise the first one |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
-`keyPoses`, `glance`, `release` and `idleChange` are in the namespace `urn:reactive-realizer:1`
+`keyPoses`, `glance`, `release`, `idleChange` and `weightShift` are in the namespace `urn:reactive-realizer:1`
 ([key poses in BML](embrscript.md#key-poses-in-bml)). `murmlgesture` and `murmlface` are in the namespace
 `http://www.techfak.uni-bielefeld.de/ags/soa/murml` ([MURML](murml.md)).
 
@@ -265,7 +267,9 @@ _EMBR_NOTES = {
     "POSE_TARGET": "`pose`",
     "MORPH_TARGET": "`bmlt:facekeyframe`",
     "SHADER": "`bmlt:facekeyframe`; `blushing` and `paling`",
-    "AUTONOMOUS_BEHAVIOR": "`idleChange`; `breathingFrequency`, `breathingAmplitude` and `blinkProbability`",
+    "AUTONOMOUS_BEHAVIOR": "`idleChange`, or a movement: [the keys](embrscript.md#autonomous-behaviors); a TIME_WARP \
+and a FEEDBACK_ID have no effect. Behaviors of your own, which EMBR's character files define, are \
+[blocks](embrscript.md#triggers) here",
 }
 """Element of EMBRScript -> what it is read as."""
 

@@ -46,6 +46,7 @@ from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS, MURML
 from reactive_realizer.bml.release import Release
+from reactive_realizer.bml.weight_shift import WeightShift
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,6 +143,7 @@ _BEHAVIORS = (
     Glance,
     Release,
     IdleChange,
+    WeightShift,
     MurmlGesture,
     MurmlFace,
 )

@@ -1,8 +1,10 @@
 """Changes of what a character does of itself all the time, in our own namespace: breathing, blinking, glances."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import ClassVar
+from types import MappingProxyType
+from typing import ClassVar, Final
 
 from reactive_realizer.bml.attribute_types import Enumeration, Float
 from reactive_realizer.bml.attributes import attribute
@@ -22,8 +24,26 @@ class IdleParameter(StrEnum):
     """Depth of breaths, relative to that at rest."""
     BLINK_RATE = "BLINK_RATE"
     """Blinks per minute; 0 for none."""
+    BLINK_DEPTH = "BLINK_DEPTH"
+    """How far blinks close the lids, relative to usual blinks."""
     GLANCE_RATE = "GLANCE_RATE"
     """Glances aside per minute, of eyes without a target; 0 for none."""
+    WEIGHT_SHIFT_RATE = "WEIGHT_SHIFT_RATE"
+    """Shifts of the weight per minute, of a standing figure; 0 for none."""
+    WEIGHT_SHIFT_DEPTH = "WEIGHT_SHIFT_DEPTH"
+    """How far the weight goes to a side, relative to usual shifts."""
+
+
+MOSTS: Final[Mapping[IdleParameter, float]] = MappingProxyType(
+    {
+        **dict.fromkeys(IdleParameter, MOST),
+        IdleParameter.BREATHING_DEPTH: 5.0,
+        IdleParameter.BLINK_DEPTH: 1.0,
+        IdleParameter.WEIGHT_SHIFT_RATE: 30.0,
+        IdleParameter.WEIGHT_SHIFT_DEPTH: 2.0,
+    }
+)
+"""Largest value of each parameter: what a body does."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -25,6 +25,7 @@ from reactive_realizer.bml.glance import Glance
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.vocabulary import BodyGroup, PosePart
+from reactive_realizer.bml.weight_shift import WeightShift
 
 
 class BodyPart(Enum):
@@ -47,7 +48,7 @@ _PARTS: dict[type[Behavior], frozenset[BodyPart]] = {
     # The eyes stay on their target while the head nods, so a gaze leaves it free.
     **dict.fromkeys((Gaze, GazeShift, Glance), frozenset({BodyPart.EYES})),
     **dict.fromkeys((Face, FaceFacs, FaceLexeme, FaceShift, MurmlFace, *FACES), frozenset({BodyPart.FACE})),
-    Locomotion: frozenset({BodyPart.TRUNK}),
+    **dict.fromkeys((Locomotion, WeightShift), frozenset({BodyPart.TRUNK})),
     **dict.fromkeys(MOTIONS, frozenset({BodyPart.HEAD, BodyPart.EYES, BodyPart.ARMS, BodyPart.TRUNK})),
 }
 

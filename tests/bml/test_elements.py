@@ -61,6 +61,7 @@ from reactive_realizer.bml.vocabulary import (
     StanceType,
     WarpKind,
 )
+from reactive_realizer.bml.weight_shift import WeightShift
 
 Block = Callable[[str], BehaviorBlock]
 
@@ -254,6 +255,7 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object], tuple[str, ...]]] = 
         {"parameter": IdleParameter.BLINK_RATE, "value": 9.0},
         SHIFT,
     ),
+    '<rr:weightShift id="x" side="-0.5"/>': (WeightShift, {"side": -0.5}, SHIFT),
     f'<murml:murmlgesture id="x">{FRAMES}</murml:murmlgesture>': (MurmlGesture, {}, STROKE),
     f'<murml:murmlface id="x">{FRAMES}</murml:murmlface>': (MurmlFace, {}, FACE),
 }
@@ -308,7 +310,14 @@ def test_every_default_sync_point_is_an_attribute_with_a_reference(block: Block,
             inside = "".join(needed.get(child, "") for child in element.children)
             prefix = PREFIXES[element.namespace]
             values = {"event": "go", "lexeme": "NOD", "target": "box", "au": "1", "paramId": "volume"}
-            values |= {"type": "perlin", "joint": "vl5", "class": "SlerpTransition", "left": "5", "up": "1"}
+            values |= {
+                "type": "perlin",
+                "joint": "vl5",
+                "class": "SlerpTransition",
+                "left": "5",
+                "up": "1",
+                "side": "1",
+            }
             values["mode"] = "LEFT_HAND"
             values |= {"filename": "clap.wav", "group": "HEAD", "parameter": "BLINK_RATE"}
             values |= {

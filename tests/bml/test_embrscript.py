@@ -3,6 +3,7 @@
 import pytest
 
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.behaviors import FaceLexeme, Gesture
 from reactive_realizer.bml.block import CAST, BehaviorBlock, Parsed
 from reactive_realizer.bml.block_writer import document
 from reactive_realizer.bml.dialects import BML_DIALECT, Dialects
@@ -11,6 +12,7 @@ from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
 from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.key_poses import KeyPoses, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, Composition, FacePart, WarpKind
+from reactive_realizer.bml.weight_shift import WeightShift
 from reactive_realizer.limits import Limits
 
 
@@ -251,24 +253,65 @@ def test_what_is_not_realized_is_named_once() -> None:
     assert (line, sentence.partition(" has")[0]) == (5, "TIME_WARP:SIN")
 
 
+def autonomous(key: str, value: float, more: str = "") -> str:
+    return f"BEGIN AUTONOMOUS_BEHAVIOR\nBEHAVIOR_KEY:{key}\nBEHAVIOR_VALUE:{value}\n{more}END"
+
+
 def test_autonomous_behaviors_change_the_parameters_of_idle_animation() -> None:
-    change = "BEGIN AUTONOMOUS_BEHAVIOR\nBEHAVIOR_KEY:{}\nBEHAVIOR_VALUE:{}\nEND"
-    changes = (("breathingFrequency", 0.4), ("breathingAmplitude", 0.3), ("blinkProbability", 3000), ("sweating", 1))
-    first, second = (
-        f"TIME_POINT:+{time}\n" + "\n".join(change.format(*each) for each in changes) for time in (500, 900)
+    changes = {
+        "breathingFrequency": (0.4, IdleParameter.BREATHING_RATE, 24.0),
+        "breathingAmplitude": (0.3, IdleParameter.BREATHING_DEPTH, 3.0),
+        "blinkProbability": (3000, IdleParameter.BLINK_RATE, 20.0),
+        "blinkIntensity": (0.5, IdleParameter.BLINK_DEPTH, 0.5),
+        "weightShiftFrequency": (0.2, IdleParameter.WEIGHT_SHIFT_RATE, 12.0),
+        "weightShiftAmplitude": (1.5, IdleParameter.WEIGHT_SHIFT_DEPTH, 1.5),
+    }
+    inside = "\n".join(autonomous(key, value) for key, (value, _, _) in changes.items())
+    found = block(script(f"TIME_POINT:+500\n{inside}", f"TIME_POINT:+900\n{inside}"))
+    idle = [each for each in found.behaviors if isinstance(each, IdleChange)]
+    expected = [(parameter, amount) for _, parameter, amount in changes.values()]
+    assert [(each.parameter, each.value) for each in idle] == 2 * expected
+    assert {sync: str(ref) for sync, ref in idle[-1].syncs.items()} == {"start": "0.5", "end": "0.9"}
+
+
+def test_a_key_pose_triggers_a_blink_a_breath_and_a_shift_of_the_weight() -> None:
+    inside = (autonomous("blinking", 0.8), autonomous("breathing", 1), autonomous("weightShift", -0.6))
+    blink, breath, shift = block(script("TIME_POINT:+2000\n" + "\n".join(inside))).behaviors
+    assert (type(blink), getattr(blink, "lexeme", ""), getattr(blink, "amount", 0)) == (FaceLexeme, "BLINK", 0.8)
+    assert (type(breath), getattr(breath, "lexeme", ""), breath.parameters) == (Gesture, "BREATHE", {"amount": "1"})
+    assert (type(shift), getattr(shift, "side", 0)) == (WeightShift, -0.6)
+    points = [{sync: str(ref) for sync, ref in each.syncs.items()} for each in (blink, breath, shift)]
+    assert points == [{"start": "2"}, {"stroke": "2"}, {"start": "0", "end": "2"}]
+
+
+def test_what_a_body_does_not_do_by_itself_is_named_with_its_limit() -> None:
+    inside = (
+        autonomous("breathingAmplitude", 1.0),
+        autonomous("weightShiftFrequency", 2),
+        autonomous("blinkProbability", 100),
+        autonomous("weightShift", 1.5),
+        autonomous("sweating", 1),
+        autonomous("sweating", 1),
     )
-    text = script(first, second)
-    ((line, sentence),) = problems(text)
-    assert (line, sentence.partition(":")[0]) == (17, "AUTONOMOUS_BEHAVIOR sweating has no effect")
+    text = script("TIME_POINT:+500\n" + "\n".join(inside))
+    assert [(line, sentence.partition(";")[0].partition(": known")[0]) for line, sentence in problems(text)] == [
+        (7, "breathingAmplitude is at most 0.5 here, not 1.00"),
+        (11, "weightShiftFrequency is at most 0.5 here, not 2.00"),
+        (15, "blinkProbability is at least 500 here, not 100.00"),
+        (19, "BEHAVIOR_VALUE:1.5: it must be a number from -1 to 1"),
+        (21, "AUTONOMOUS_BEHAVIOR sweating has no effect"),
+    ]
     found = parsed(text).block
     assert found is not None
-    idle = [each for each in found.behaviors if isinstance(each, IdleChange)]
-    assert [(each.parameter, each.value) for each in idle[:3]] == [
-        (IdleParameter.BREATHING_RATE, 24.0),
-        (IdleParameter.BREATHING_DEPTH, 3.0),
-        (IdleParameter.BLINK_RATE, 20.0),
+    assert [getattr(each, "value", None) for each in found.behaviors] == [5.0, 30.0, 120.0]
+
+
+def test_what_an_autonomous_behavior_does_not_have_is_named() -> None:
+    inside = autonomous("breathingAmplitude", 0.2, "TIME_WARP:EXP;2\nFEEDBACK_ID:deep\n")
+    assert [sentence.partition(" has")[0] for _, sentence in problems(script(f"TIME_POINT:+500\n{inside}"))] == [
+        "TIME_WARP of AUTONOMOUS_BEHAVIOR",
+        "FEEDBACK_ID of AUTONOMOUS_BEHAVIOR",
     ]
-    assert {sync: str(ref) for sync, ref in idle[3].syncs.items()} == {"start": "0.5", "end": "0.9"}
 
 
 def test_a_stray_end_is_named() -> None:

@@ -21,6 +21,9 @@ def _part(example: Fence, word: str) -> str:
 @pytest.mark.parametrize("example", [*fences(PAGE, "embr"), *fences(PAGE, "xml")], ids=str)
 async def test_an_example_plays_at_the_times_and_with_the_warnings_of_the_page(example: Fence) -> None:
     async with open_pilot() as pilot:
+        for name, time in _TIMED.findall(_part(example, "predicts")):
+            anticipator, _, point = name.partition(":")
+            pilot.predict(anticipator, point, float(time))
         pilot.perform(example.text)
         await pilot.advance(4)
         for name, time in _TIMED.findall(_part(example, "plays")):

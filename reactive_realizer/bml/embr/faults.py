@@ -88,6 +88,16 @@ class NotRealized(ParsingFault):
     reason: str
 
 
+class Limited(ParsingFault):
+    """A value of an autonomous behavior beyond what a body does; it becomes the limit."""
+
+    code = "embr-limited"
+    template = "{key} is {bound} here, not {value}"
+    key: str
+    value: float
+    bound: str
+
+
 class TooManyPoses(ParsingFault):
     """A gesture with more poses than are read."""
 

@@ -9,15 +9,15 @@ from lxml import etree
 
 from reactive_realizer.bml.attribute_types import Id
 from reactive_realizer.bml.behavior import Behavior
+from reactive_realizer.bml.embr.autonomous import Autonomous, read_autonomous
 from reactive_realizer.bml.embr.faults import BadValue, UnknownName
 from reactive_realizer.bml.embr.goals import GOALS, read_goal
 from reactive_realizer.bml.embr.nucleus import Nuclei
 from reactive_realizer.bml.embr.syntax import AUTONOMOUS, CLIP, MORPH, Node
 from reactive_realizer.bml.embr.timeline import Timed, sequence_start, timed
 from reactive_realizer.bml.embr.values import Notes
-from reactive_realizer.bml.embr.words import AUTONOMOUS_KEYS, MORPHS, SHADERS, Expression
+from reactive_realizer.bml.embr.words import MORPHS, SHADERS, Expression
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
-from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPose, KeyPoseGoal, KeyPoses
 from reactive_realizer.bml.names import BMLT, OWN, Location, is_sync_id
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -77,7 +77,7 @@ class SequenceReader:
         self._warp = self._warp_of(node)
         self._groups: dict[BodyGroup, list[_Step]] = {}
         self._weights: dict[tuple[str, str], list[_Step]] = {}
-        self._changes: list[tuple[Timed, Node, str, float]] = []
+        self._autonomous: list[Autonomous] = []
         self._clips: list[Timed] = []
         for each in nuclei.expressed(timed(node, self._start, notes)):
             if each.node.name == CLIP:
@@ -91,13 +91,11 @@ class SequenceReader:
             yield self._key_poses(group, steps)
         for (kind, key), steps in self._weights.items():
             yield self._face(kind, key, steps)
-        for number, (at, node, key, value) in enumerate(self._changes, 1):
-            parameter, amount = AUTONOMOUS_KEYS[key].read(value)
-            yield IdleChange(
-                **self._common(f"{_id_of(key)}{number}", "idleChange", OWN, node.location),
-                syncs=self._syncs(self._start + at.begins, self._start + at.reached),
-                parameter=parameter,
-                value=amount,
+        for number, each in enumerate(self._autonomous, 1):
+            part, place = f"{_id_of(each.key)}{number}", each.node.location
+            points = {sync: self._start + time for sync, time in each.points.items()}
+            yield each.kind(
+                **self._common(part, each.element, each.kind.NAMESPACE, place), syncs=_syncs(points), **each.values
             )
         for number, clip in enumerate(self._clips, 1):
             try:
@@ -132,7 +130,8 @@ class SequenceReader:
                     group, goal = self._notes.body_group(constraint), read_goal(constraint, self._notes)
                     groups.setdefault(group, []).append((constraint, goal))
                 elif constraint.name == AUTONOMOUS:
-                    self._take_change(at, constraint)
+                    if (found := read_autonomous(at, constraint, self._notes)) is not None:
+                        self._autonomous.append(found)
                 else:
                     self._take_weight(at, constraint)
             except RealizerError as refused:
@@ -143,14 +142,6 @@ class SequenceReader:
             goals = tuple(goal for _, goal in read)
             warp = self._warp_of(*nodes, at.node)
             steps.append(_Step(at, 0.0, goals, self._feedback(nodes, steps), warp, nodes[0].location))
-
-    def _take_change(self, at: Timed, node: Node) -> None:
-        key, value = self._notes.text(node, "BEHAVIOR_KEY"), self._notes.number(node, "BEHAVIOR_VALUE", low=0.0)
-        if key not in AUTONOMOUS_KEYS:
-            reason = f"known are {', '.join(AUTONOMOUS_KEYS)}"
-            self._notes.left_out(f"AUTONOMOUS_BEHAVIOR {quoted(key)}", reason, node.location)
-        else:
-            self._changes.append((at, node, key, value))
 
     def _take_weight(self, at: Timed, node: Node) -> None:
         kind = "MORPH" if node.name == MORPH else "SHADER"
@@ -200,7 +191,7 @@ class SequenceReader:
         kind, steepness = self._warp
         return KeyPoses(
             **self._common(group.value.lower(), "keyPoses", OWN, steps[0].place),
-            syncs=self._syncs(self._start),
+            syncs=_syncs({"start": self._start}),
             group=group,
             fade_in=self._fades[0],
             fade_out=self._fades[1],
@@ -235,7 +226,7 @@ class SequenceReader:
             expression = MORPHS.get(key, Expression(FacePart.MORPH, {key: 1.0}))
         return FaceKeyframe(
             **self._common(_id_of(key), "facekeyframe", BMLT, steps[0].place),
-            syncs=self._syncs(self._start),
+            syncs=_syncs({"start": self._start}),
             type=expression.type,
             interpolator=self._interpolator(expression, steps),
         )
@@ -283,7 +274,7 @@ class SequenceReader:
             parameters["group"] = group.value
         return Keyframe(
             **self._common(f"animation{number}", "keyframe", BMLT, clip.node.location),
-            syncs=self._syncs(self._start + clip.begins, self._start + clip.reached),
+            syncs=_syncs({"start": self._start + clip.begins, "end": self._start + clip.reached}),
             animation=name,
             parameters=MappingProxyType(parameters),
         )
@@ -294,9 +285,10 @@ class SequenceReader:
         name = f"{self._name}_{part}"
         return {"id": name, "name": element, "namespace": namespace, "location": place, "order": 0}
 
-    def _syncs(self, start: float, end: float | None = None) -> Mapping[str, SyncRef]:
-        points = {"start": start} | ({} if end is None else {"end": end})
-        return MappingProxyType({sync: SyncRef(None, None, None, round(time, 6)) for sync, time in points.items()})
+
+def _syncs(points: Mapping[str, float]) -> Mapping[str, SyncRef]:
+    """References to times, s after the script enters."""
+    return MappingProxyType({sync: SyncRef(None, None, None, round(time, 6)) for sync, time in points.items()})
 
 
 def _curve(power: float) -> dict[str, float]:

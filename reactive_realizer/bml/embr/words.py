@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from reactive_realizer.bml.idle_change import MOST, IdleParameter
 from reactive_realizer.bml.vocabulary import BodyGroup, FacePart
 
 BODY_GROUPS: Final[Mapping[str, BodyGroup]] = MappingProxyType(
@@ -116,35 +115,3 @@ MORPHS: Final[Mapping[str, Expression]] = MappingProxyType(
     }
 )
 """The morph targets of EMBR's characters."""
-
-
-class AutonomousKey(NamedTuple):
-    """A parameter of autonomous behavior.
-
-    Attributes:
-        parameter: of idle animation.
-        factor: from its value in a script to that of the parameter.
-        inverse: whether the script gives the time from one to the next instead.
-        most: limit of the value here.
-    """
-
-    parameter: IdleParameter
-    factor: float
-    inverse: bool = False
-    most: float = MOST
-
-    def read(self, value: float) -> tuple[IdleParameter, float]:
-        """The parameter, and its value."""
-        if self.inverse:
-            value = 1.0 / value if value > 0.0 else 0.0
-        return self.parameter, round(min(self.most, self.factor * value), 4)
-
-
-AUTONOMOUS_KEYS: Final[Mapping[str, AutonomousKey]] = MappingProxyType(
-    {
-        "breathingFrequency": AutonomousKey(IdleParameter.BREATHING_RATE, 60.0),
-        "breathingAmplitude": AutonomousKey(IdleParameter.BREATHING_DEPTH, 10.0, most=5.0),
-        "blinkProbability": AutonomousKey(IdleParameter.BLINK_RATE, 60_000.0, inverse=True),
-    }
-)
-"""The parameters of EMBR's autonomous behaviors: breaths per second, their depth (0.1 at rest), ms between blinks."""

@@ -24,11 +24,12 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.extensions import MOTIONS
 from reactive_realizer.bml.glance import Glance
-from reactive_realizer.bml.idle_change import IdleChange
+from reactive_realizer.bml.idle_change import MOSTS, IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlGesture
 from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import StanceType
+from reactive_realizer.bml.weight_shift import WeightShift
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.body import Body
@@ -57,7 +58,7 @@ from reactive_realizer.engines.animation.fade_out import (
     visible_part,
     with_reached_root,
 )
-from reactive_realizer.engines.animation.faults import NoIdle
+from reactive_realizer.engines.animation.faults import NoIdle, TooMuchOfIdle, WeightOnNoFoot
 from reactive_realizer.engines.animation.gaze.eye_controller import EyeController
 from reactive_realizer.engines.animation.gaze.eyes import lid_weights
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
@@ -86,6 +87,7 @@ from reactive_realizer.engines.animation.waiting_arms import WaitingArms
 from reactive_realizer.engines.animation.walk import Walk
 from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.engines.animation.walking.step_turn import StepTurns
+from reactive_realizer.engines.animation.weight_shifts import WeightShiftUnit
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.physics.controllers.controller import PhysicalController
@@ -108,6 +110,7 @@ class AnimationEngine(DefaultEngine):
         KeyPoses,
         MurmlGesture,
         IdleChange,
+        WeightShift,
         Glance,
         Release,
         Gesture,
@@ -214,8 +217,8 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: there is no motion for it, or no such target.
         """
-        if isinstance(behavior, IdleChange):
-            return self._idle_change(BlockKey("", ""), behavior).timing.points
+        if isinstance(behavior, IdleChange | WeightShift):
+            return self._idle_unit(BlockKey("", ""), behavior).timing.points
         self._library.refresh()
         if self._library.preloads(behavior):
             return None
@@ -233,8 +236,8 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: there is no motion for it, or no such target.
         """
-        if isinstance(behavior, IdleChange):
-            return self._idle_change(block, behavior)
+        if isinstance(behavior, IdleChange | WeightShift):
+            return self._idle_unit(block, behavior)
         while self._drafts and not _precedes(next(reversed(self._drafts.values())), block, behavior):
             self._drafts.popitem()
         if not self._drafts:
@@ -268,14 +271,23 @@ class AnimationEngine(DefaultEngine):
         bodies = temporary_bodies(unit.motion for unit in planned if isinstance(unit, AnimationUnit))
         return tuple(dict.fromkeys((*bodies, *self._interrupted_bodies)))
 
-    def _idle_change(self, block: BlockKey, behavior: IdleChange) -> IdleChangeUnit:
-        """Plan a change of idle animation.
+    def _idle_unit(self, block: BlockKey, behavior: IdleChange | WeightShift) -> IdleChangeUnit | WeightShiftUnit:
+        """Plan a change of idle animation, or a movement of it.
 
         Raises:
-            RealizerError: "no-idle": the figure has none.
+            RealizerError: "no-idle": the figure has none; "too-much-of-idle": the value is above its limit;
+                "weight-on-no-foot": the figure does not stand.
         """
         if self._idle is None:
             raise RealizerError(NoIdle())
+        if isinstance(behavior, WeightShift):
+            stance = self._expected().stance
+            if stance is not StanceType.STANDING:
+                raise RealizerError(WeightOnNoFoot(stance=stance))
+            return WeightShiftUnit(block, behavior, self._idle.shifts)
+        most = MOSTS[behavior.parameter]
+        if behavior.value > most:
+            raise RealizerError(TooMuchOfIdle(parameter=behavior.parameter, value=behavior.value, most=most))
         goal = self._idle.relative(behavior.parameter, behavior.value)
         return IdleChangeUnit(block, behavior, self._idle.courses[behavior.parameter], goal)
 
@@ -377,7 +389,7 @@ class AnimationEngine(DefaultEngine):
 
     def _breath(self, now: GlobalTime, standing: float) -> tuple[Layer, ...]:
         for unit in self.player.playing:
-            if isinstance(unit, IdleChangeUnit):
+            if isinstance(unit, IdleChangeUnit | WeightShiftUnit):
                 unit.follow(now)
         return self._idle_part(lambda idle: (checked(idle.layer(now, standing)),), ())
 

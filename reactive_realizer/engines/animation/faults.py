@@ -232,6 +232,25 @@ class NoIdle(CreationFault):
     template = "this character has no idle animation: the human file says so"
 
 
+class TooMuchOfIdle(CreationFault):
+    """A value of a parameter of idle animation that is above its limit."""
+
+    code = "too-much-of-idle"
+    template = "{parameter} is at most {most}, not {value}"
+    compared = ("value", "most")
+    parameter: str
+    value: float
+    most: float
+
+
+class WeightOnNoFoot(CreationFault):
+    """A shift of the weight of a figure that does not stand."""
+
+    code = "weight-on-no-foot"
+    template = "it has no weight on its feet to shift while {stance}; a postureShift to STANDING has to come first"
+    stance: str
+
+
 class NoGroup(CreationFault):
     """No body group has the name."""
 

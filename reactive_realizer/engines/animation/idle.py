@@ -17,10 +17,10 @@ from reactive_realizer.engines.animation.idle_movements import (
     Breath,
     Glances,
     Leaning,
-    WeightShift,
     leaning,
 )
 from reactive_realizer.engines.animation.idle_waves import Fixation, Looseness
+from reactive_realizer.engines.animation.weight_shifts import USUAL_WEIGHT_SHIFTS, WeightShifts
 
 _WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
 """Sway to the side, forward and about the vertical: for each a slow and a fast wave, rad/s, and their phase, rad."""
@@ -34,6 +34,7 @@ class Idle:
 
     Attributes:
         courses: of its parameters, relative to their usual values.
+        shifts: of the weight.
     """
 
     def __init__(self, random: Random, blink_rate: float = USUAL_RATE, degree: float = 1.0) -> None:
@@ -46,17 +47,15 @@ class Idle:
         """
         self._degree = degree
         self.courses: Mapping[IdleParameter, IdleCourse] = {
-            IdleParameter.BREATHING_RATE: IdleCourse(1.0),
-            IdleParameter.BREATHING_DEPTH: IdleCourse(1.0),
-            IdleParameter.BLINK_RATE: IdleCourse(1.0 if blink_rate > 0.0 else 0.0),
-            IdleParameter.GLANCE_RATE: IdleCourse(1.0),
+            parameter: IdleCourse(0.0 if parameter is IdleParameter.BLINK_RATE and blink_rate == 0.0 else 1.0)
+            for parameter in IdleParameter
         }
         self._blink_rate = blink_rate or USUAL_RATE
         self._breath = Breath(Random(random.getrandbits(64)))
         self._sway = random.uniform(0.0, 100.0)
         blinking = Random(random.getrandbits(64))
         self._blinks = Blinks(blinking, self._blink_rate)
-        self._shift = WeightShift(Random(random.getrandbits(64)))
+        self.shifts = WeightShifts(Random(random.getrandbits(64)), self.courses[IdleParameter.WEIGHT_SHIFT_RATE])
         self._leant: tuple[float, Leaning] | None = None
         self._glances = Glances(Random(random.getrandbits(64)))
         self._looseness = Looseness(Random(random.getrandbits(64)))
@@ -68,6 +67,7 @@ class Idle:
             IdleParameter.BREATHING_RATE: USUAL_BREATHING,
             IdleParameter.BLINK_RATE: self._blink_rate,
             IdleParameter.GLANCE_RATE: USUAL_GLANCES,
+            IdleParameter.WEIGHT_SHIFT_RATE: USUAL_WEIGHT_SHIFTS,
         }
         return value / usual.get(parameter, 1.0)
 
@@ -83,7 +83,8 @@ class Idle:
             time: s.
             standing: degree to which the figure may shift its weight, 0 to 1.
         """
-        turns, root = self._leaning(self._degree * self._shift.at(time) * standing)
+        depth = self._degree * self.courses[IdleParameter.WEIGHT_SHIFT_DEPTH].value(time)
+        turns, root = self._leaning(depth * self.shifts.at(time) * standing)
         rotations = {**turns, **self.rotations(time)}
         for joint, turn in turns.items():
             if rotations[joint] is not turn:
@@ -128,7 +129,8 @@ class Idle:
     def blinks(self, time: float) -> dict[str, float]:
         """Return the morph weights of blinks at a time, s."""
         rate = self.courses[IdleParameter.BLINK_RATE]
-        closed = self._blinks.closed(time, rate.integral(time), rate.value(time))
+        depth = self.courses[IdleParameter.BLINK_DEPTH].value(time)
+        closed = depth * self._blinks.closed(time, rate.integral(time), rate.value(time))
         return {"eyeBlinkLeft": closed, "eyeBlinkRight": closed}
 
 

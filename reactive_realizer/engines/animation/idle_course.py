@@ -1,5 +1,7 @@
 """Parameters of idle animation that behaviors change."""
 
+import math
+
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engines.animation.easing import share
@@ -65,6 +67,24 @@ class IdleCourse:
         changing = min(time, self._until) - self._since
         mean = 0.5 * (self._value + self.value(self._since + changing))
         return self._sum + mean * changing + self._goal * max(0.0, time - self._until)
+
+    def reaches(self, amount: float) -> float:
+        """Return when the integral reaches an amount, s, not before the last change began; infinity if it never does.
+
+        The value must not be below 0.
+        """
+        missing = amount - self._sum
+        if missing <= 0.0:
+            return self._since
+        if self._value == self._goal:
+            return self._since + missing / self._goal if self._goal > 0.0 else math.inf
+        lasts = self._until - self._since
+        changing = 0.5 * (self._value + self._goal) * lasts
+        if missing > changing:
+            return self._until + (missing - changing) / self._goal if self._goal > 0.0 else math.inf
+        slope = (self._goal - self._value) / lasts
+        reached = math.sqrt(max(0.0, self._value * self._value + 2.0 * slope * missing))
+        return self._since + 2.0 * missing / (self._value + reached)
 
 
 class IdleChangeUnit(PlanUnit):

@@ -1,4 +1,4 @@
-"""Idle movements that recur at random intervals: breaths, weight shifts and glances."""
+"""Idle movements that recur at random intervals: breaths and glances; and how a body leans on one foot."""
 
 import math
 from bisect import bisect_right
@@ -94,43 +94,11 @@ class Breath:
         return self._random.uniform(*_LASTS), self._random.uniform(*_DEPTH)
 
 
-_SHIFT_PAUSE = (10.0, 30.0)
-"""Shortest and longest time between weight shifts, s."""
-
-_TAKES = 1.8
-"""Duration of a weight shift, s."""
-
 _SHIFT_ASIDE = 0.030
-"""Largest displacement of the pelvis toward the supporting foot, m."""
+"""Largest displacement of the pelvis toward the supporting foot in a usual weight shift, m."""
 
 _SHIFT_DOWN = 0.006
 """Lowering of the pelvis there, beyond what the legs need to reach their feet, m."""
-
-
-class WeightShift:
-    """Weight shifts of a standing figure: it moves its weight to the other foot at once, and stays there for a while.
-
-    After M. Duarte and V. M. Zatsiorsky, "Patterns of center of pressure migration during prolonged unconstrained
-    standing" (Motor Control 3, 1999): of their three patterns, this is the one called shifting. Distance and rate are
-    our choice; theirs occurred every 199 s to the side, but an observer should see one within a minute. The hip of the
-    supporting leg is higher, trunk and neck compensate the tilt, and the head stays level.
-    """
-
-    def __init__(self, random: Random) -> None:
-        """Draw from a generator that must not be shared."""
-        self._random = random
-        self._episodes = Episodes(random.uniform(-0.4, 0.4), self._draw)
-        self._side = random.choice((-1.0, 1.0))
-
-    def _draw(self) -> tuple[float, float]:
-        self._side = -self._side
-        return self._random.uniform(*_SHIFT_PAUSE), self._side * self._random.uniform(0.4, 1.0)
-
-    def at(self, time: float) -> float:
-        """Return the supporting foot, -1 (right) to 1 (left)."""
-        now, before = self._episodes.at(time)
-        return before.what + (now.what - before.what) * minimum_jerk((time - now.since) / _TAKES)
-
 
 _SUNK = 0.1
 """A pelvis that is lower than this below standing height does not shift weight any more, m."""
@@ -152,8 +120,10 @@ Leaning = tuple[Mapping[str, Quat], Vec3]
 def leaning(side: float) -> Leaning:
     """Return the turns of pelvis, trunk and neck, and the displacement of the pelvis, m.
 
+    The hip of the supporting leg is higher, trunk and neck compensate the tilt, and the head stays level.
+
     Args:
-        side: the supporting foot, -1 (right) to 1 (left).
+        side: the supporting foot, -1 (right) to 1 (left) in a usual weight shift.
     """
     turns = {
         ROOT: from_euler(0.0, -0.04 * side, 0.050 * side),
