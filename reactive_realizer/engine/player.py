@@ -42,6 +42,7 @@ class Player:
         """The units that may have ended: those that have changed."""
         self._dropped: list[Dropped] = []
         self._ending: list[EndUnit] = []
+        self._watching: Callable[[PlanUnit], object] = lambda _: None
 
     @property
     def units(self) -> tuple[PlanUnit, ...]:
@@ -58,6 +59,10 @@ class Player:
         """Call ``wake()`` when units enter, leave or change."""
         self._agenda.wake = wake
 
+    def watch(self, note: Callable[[PlanUnit], object]) -> None:
+        """Call ``note(unit)`` whenever a unit enters, leaves, changes or is due."""
+        self._watching = note
+
     @property
     def next_due(self) -> Time:
         """A time before which no unit begins or reaches a point; None while no such time is known."""
@@ -68,17 +73,19 @@ class Player:
         self._added += 1
         self._units[unit] = self._added
         unit.wake = partial(self.note, unit)
+        self._watching(unit)
         self._follow(unit)
 
     def note(self, unit: PlanUnit) -> None:
         """Note that a unit has changed."""
-        self._touched.append(unit)
+        self._touch(unit)
         if unit in self._units:
             self._follow(unit)
 
     def remove(self, unit: PlanUnit) -> None:
         """Remove a unit from the plan, if it is in the plan."""
         if unit in self._units:
+            self._watching(unit)
             self._note_end(unit)
             self._forget(unit)
             self._agenda.wake()
@@ -151,6 +158,8 @@ class Player:
         due = dict.fromkeys(self._agenda.take_due(now))
         if not due:
             return [], []
+        for unit in due:
+            self._watching(unit)
         starting = sorted((unit for unit in due if unit.due(now)), key=_rank)
         playing = (unit for unit in due if unit in self._begun and unit.state is UnitState.IN_EXEC)
         return sorted(playing, key=self._begun.__getitem__), starting
@@ -178,11 +187,15 @@ class Player:
             unit.fire(due, now)
         except Exception as failure:
             self._fail(unit, failure, now)
-        self._touched.append(unit)
+        self._touch(unit)
         for point, time in due:
             if point.fired:
                 reached.append(Reached(unit, point, time))
         self._note_end(unit)
+
+    def _touch(self, unit: PlanUnit) -> None:
+        self._touched.append(unit)
+        self._watching(unit)
 
     def _forget_ended(self) -> None:
         for unit in self._touched:
@@ -214,7 +227,7 @@ class Player:
 
     def _drop(self, unit: PlanUnit, fault: Fault, now: GlobalTime) -> None:
         unit.drop(now)
-        self._touched.append(unit)
+        self._touch(unit)
         self._dropped.append(Dropped(unit, fault))
 
 

@@ -54,6 +54,8 @@ class SoundAnnouncer:
         self._announced: dict[SoundUnit, list[_Announced]] = {}
         self._sources: dict[SoundUnit, list[SoundPart]] = {}
         """The sounds of each unit; a unit that makes all of them again has new ones."""
+        self._unsent: dict[SoundUnit, None] = {}
+        """The units of which a gain is left for the next tick."""
         self._count = 0
 
     def find(self, clip: str) -> tuple[SoundUnit, SoundPart] | None:
@@ -62,23 +64,36 @@ class SoundAnnouncer:
         return next(((unit, each.part) for unit, each in pairs if each.clip == clip), None)
 
     def changes(self, units: Iterable[SoundUnit], now: GlobalTime) -> tuple[AudioChange, ...]:
-        """The changes since the last call."""
+        """The changes since the last call.
+
+        Args:
+            units: all that may have changed, in the order of planning.
+            now: the time of the tick.
+        """
+        units = tuple(dict.fromkeys((*self._unsent, *units)))
+        self._unsent.clear()
         out: list[AudioChange] = []
-        for unit, announced in list(self._announced.items()):
-            if unit.live and unit.sounds is not self._sources[unit]:
-                del self._announced[unit]
-                out += _silences(unit, announced, now)
-            elif unit.live:
-                out += _differences(unit, announced, now)
-                out += self._restated(unit, announced) if unit.elastic else ()
-            else:
-                del self._announced[unit], self._sources[unit]
-                out += _silences(unit, announced, now)
+        for unit in units:
+            announced = self._announced.get(unit)
+            if announced is not None:
+                out += self._updates(unit, announced, now)
         for unit in units:
             if unit.live:
                 announced, self._sources[unit] = self._announced.setdefault(unit, []), unit.sounds
                 out += [self._announce(unit, part, announced) for part in unit.sounds[len(announced) :]]
         return tuple(out)
+
+    def _updates(self, unit: SoundUnit, announced: list[_Announced], now: GlobalTime) -> Iterator[AudioChange]:
+        """The changes of what was announced of a unit; none of it counts any more if the unit has ended."""
+        if unit.live and unit.sounds is self._sources[unit]:
+            yield from _differences(unit, announced, now)
+            if unit.elastic:
+                yield from self._restated(unit, announced)
+            if any(each.gain != unit.gain and not each.ended(now) for each in announced):
+                self._unsent[unit] = None
+        else:
+            del self._announced[unit], self._sources[unit]
+            yield from _silences(unit, announced, now)
 
     def _announce(self, unit: SoundUnit, part: SoundPart, announced: list[_Announced]) -> AudioStart:
         self._count += 1

@@ -8,6 +8,7 @@ from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.hearing import Drift, Hearing, OutsideSound
 from reactive_realizer.engine.sound_announcer import SoundAnnouncer
+from reactive_realizer.engine.sound_attention import SoundAttention
 from reactive_realizer.engine.sound_unit import SoundUnit
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -19,17 +20,22 @@ class SoundEngine(DefaultEngine):
     def __init__(self, context: EngineContext, modality: str) -> None:
         super().__init__(f"{context.character}/{modality}")
         self._announcer = SoundAnnouncer(context.character, f"{context.character}-{modality}")
+        self._attention = SoundAttention(self.player)
 
     def add(self, unit: PlanUnit) -> None:
         """Take a sound into the plan; a change of its volume wakes the engine."""
+        if isinstance(unit, SoundUnit):
+            self._attention.add(unit)
         super().add(unit)
         for parameter in unit.parameters.values():
             parameter.cell.observe(lambda _: self.player.note(unit))
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
         """The changes of sounds since the last call: starts, moves, stops, and changes of their gain."""
-        units = (unit for unit in self.player.units if isinstance(unit, SoundUnit))
-        return self._announcer.changes(units, tick.time)
+        self._attention.take()
+        for unit in self._attention.units:
+            unit.make_sound(tick.time)
+        return self._announcer.changes(self._attention.units, tick.time)
 
     def check_heard(self, heard: AudioHeard) -> bool:
         """Whether a report is about a sound that plays now.

@@ -1,5 +1,6 @@
 """The plan unit of a behavior that is heard."""
 
+from collections.abc import Iterable
 from math import inf
 from typing import ClassVar, Final, NamedTuple, Protocol, runtime_checkable
 
@@ -9,6 +10,7 @@ from reactive_realizer.embodiment.audio import Caption, Sound
 from reactive_realizer.engine.hearing import Hearing
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.pegboard.peg_key import BlockKey
+from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.parameter import Parameter, Range
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import Timing
@@ -89,6 +91,14 @@ class SoundUnit(PlanUnit):
     def caption(self) -> Caption | None:
         """What is read while it is heard; None if nothing is."""
         return None
+
+    @property
+    def heard_by(self) -> Iterable[TimePeg]:
+        """The pegs on which depends what is told of it ahead: that of its start."""
+        return (point.peg for point in self.points[:1])
+
+    def make_sound(self, now: GlobalTime) -> None:
+        """Make the sound that will be heard soon, if it is not there."""
 
     @property
     def duration(self) -> float:

@@ -18,6 +18,9 @@ _MOST_AHEAD = 1024 * 1024
 _GRACE = 10.0
 """Time after the end of a sound during which it can be fetched, s: pages play a little later than the realizer."""
 
+_TIDYING = 1.0
+"""Time between two searches for sounds that have ended, s."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Sound:
@@ -46,13 +49,17 @@ class AudioStream:
         self.subscribers: Subscribers[str] = Subscribers()
         self.takers: Subscribers[bytes] = Subscribers()
         self._most_bytes = most_bytes
+        self._bytes = 0
+        self._next_tidying = -inf
         self._sounds: dict[str, _Sound] = {}
 
     def take(self, change: AudioChange) -> None:
         """Handles a sound that starts, moves, changes volume or stops."""
         match change:
             case AudioStart():
+                self._forget(change.clip.id)
                 self._sounds[change.clip.id] = _Sound(change)
+                self._bytes += len(change.clip.sound.wav)
                 self._send_ahead(change.clip)
             case AudioMove(id_, start) if id_ in self._sounds:
                 sound = self._sounds[id_]
@@ -73,11 +80,17 @@ class AudioStream:
             self.takers.publish(encode_sound(clip))
 
     def tidy(self, now: GlobalTime) -> None:
-        """Drops sounds that have ended, and the oldest above the size limit."""
-        for id_ in [id_ for id_, sound in self._sounds.items() if sound.end + _GRACE < now]:
-            del self._sounds[id_]
-        while sum(len(sound.start.clip.sound.wav) for sound in self._sounds.values()) > self._most_bytes:
-            del self._sounds[next(iter(self._sounds))]
+        """Drops sounds that have ended, once a second, and the oldest above the size limit."""
+        if now >= self._next_tidying:
+            self._next_tidying = now + _TIDYING
+            for id_ in [id_ for id_, sound in self._sounds.items() if sound.end + _GRACE < now]:
+                self._forget(id_)
+        while self._bytes > self._most_bytes:
+            self._forget(next(iter(self._sounds)))
+
+    def _forget(self, id_: str) -> None:
+        sound = self._sounds.pop(id_, None)
+        self._bytes -= 0 if sound is None else len(sound.start.clip.sound.wav)
 
     def sounding(self, now: GlobalTime) -> list[Message]:
         """The messages for a client that connects now: all sounds that have not ended."""

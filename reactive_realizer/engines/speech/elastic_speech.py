@@ -11,7 +11,6 @@ from reactive_realizer.engines.speech.speech_unit import SpeechUnit
 from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.plan_unit import SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
-from reactive_realizer.reactive.graph import Subscription
 
 
 class ElasticSpeech(SpeechUnit):
@@ -19,23 +18,6 @@ class ElasticSpeech(SpeechUnit):
 
     elastic = True
     _cut_course: Course | None = None
-    _subscriptions: tuple[Subscription, ...] = ()
-
-    def follow(self) -> None:
-        """Have its player know of each move of its points, of which captions tell clients."""
-        self.leave()
-        self._subscriptions = tuple(point.peg.observe(lambda _: self.wake()) for point in self.points)
-
-    def leave(self) -> None:
-        """Follow its points no longer."""
-        for each in self._subscriptions:
-            each.dispose()
-        self._subscriptions = ()
-
-    def on_start(self, time: GlobalTime) -> None:
-        """Notes the time of the start."""
-        super().on_start(time)
-        self.follow()
 
     def position(self, time: GlobalTime) -> float:
         """The position in the utterance that is read at a time, s; 0 before it has started."""

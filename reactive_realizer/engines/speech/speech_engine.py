@@ -1,6 +1,6 @@
 """The engine of ``speech`` (thesis 8.10)."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from types import MappingProxyType
 
 from reactive_realizer.binding.viseme_binding import VisemeBinding
@@ -17,7 +17,6 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
-from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import ReportFall, Request, Warn
 from reactive_realizer.engine.engine import SlowWork
@@ -143,31 +142,19 @@ class SpeechEngine(SoundEngine):
     def add(self, unit: PlanUnit) -> None:
         """Take a speech into the plan."""
         super().add(unit)
-        if isinstance(unit, ElasticSpeech):
-            unit.follow()
         if isinstance(unit, SpeechUnit):
             self._notes.add(unit)
-
-    def remove(self, unit: PlanUnit) -> None:
-        """Take a speech out of the plan."""
-        super().remove(unit)
-        if isinstance(unit, ElasticSpeech):
-            unit.leave()
 
     def warnings(self) -> tuple[Warn | ReportFall, ...]:
         """The warnings about speeches since the last call."""
         return self._notes.take()
 
-    def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
-        """The changes of sounds since the last call, with those of stretched speeches that will be heard soon."""
-        for unit in self._speeches():
-            unit.make_sound(tick.time)
-        return super().audio(tick)
-
     def requests(self, tick: Tick) -> tuple[Request, ...]:
         """The requests that points come when their sounds do."""
         requests: list[Request] = []
-        for unit in self._speeches():
+        for unit in self._attention.units:
+            if not isinstance(unit, SpeechUnit):
+                continue
             unit.steer(tick.time)
             if unit.state in (UnitState.LURKING, UnitState.IN_EXEC) and (request := unit.misplaced(tick.time)):
                 requests.append(request)
@@ -180,9 +167,6 @@ class SpeechEngine(SoundEngine):
                 utterance, position = unit.reading(time)
                 return self._track_of(utterance).weights(position)
         return None
-
-    def _speeches(self) -> Iterator[SpeechUnit]:
-        return (unit for unit in self.player.units if isinstance(unit, SpeechUnit))
 
     def _track_of(self, utterance: Utterance) -> LipSyncTrack:
         if self._track is None or self._track.utterance is not utterance:

@@ -1,6 +1,6 @@
 """The plan unit of a speech."""
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from itertools import accumulate, pairwise
 
 from reactive_realizer.binding.asset_file import parse_boolean
@@ -119,6 +119,11 @@ class SpeechUnit(SoundUnit):
         return self._stretched is not None
 
     @property
+    def heard_by(self) -> Iterable[TimePeg]:
+        """As `SoundUnit.heard_by`; what is made or read as its sync points ask for depends on all of them."""
+        return (point.peg for point in self.points) if self.loose or self.elastic else super().heard_by
+
+    @property
     def duration(self) -> float:
         """How long it lasts as planned now, s."""
         return self.utterance.duration if self.loose else super().duration
@@ -152,7 +157,7 @@ class SpeechUnit(SoundUnit):
         self._follow(self._stretched)
 
     def make_sound(self, now: GlobalTime) -> None:
-        """Make the sound that will be heard soon, if it is not heard as the voice speaks it."""
+        """As `SoundUnit.make_sound`, if it is not heard as the voice speaks it."""
         self.steer(now)
         if self._stretched is None:
             return
