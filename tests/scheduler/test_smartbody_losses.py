@@ -84,3 +84,11 @@ def test_a_behavior_without_a_duration_is_dropped_also_if_one_of_its_points_is_u
     ties = at("b:start", START, 1.0), at("b:stroke", "b:start"), at("b:strokeStart", outer("hit", None))
     _, losses = solved({"b": "beat"}, *ties)
     assert losses == [("too-short", False)]
+
+
+def test_a_rigid_behavior_does_not_begin_before_its_block_although_another_one_has_an_unknown_time() -> None:
+    """The behavior that waits for the unknown time is placed at a time that agrees with the tie before the block."""
+    ties = at("q:end", outer("go", None)), at("r:start", "q:start", -0.2), at("r:end", START, -0.2)
+    times, losses = solved({"q": "event", "r": "event"}, *ties)
+    assert losses == [("clash", False), ("clash", False)]
+    assert times[Point("r", "start")] == times[Point("r", "end")] == 0.0

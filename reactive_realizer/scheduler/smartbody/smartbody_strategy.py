@@ -109,9 +109,10 @@ class _Run:
             return
         if item.timing.rigid and self._misses(item, points, tied):
             return
-        first = min(tied)
-        known = self._not_before_the_block(item, {first: tied[first]} if item.timing.rigid else tied)
-        if (found := self._conflict(item, known)) is not None:
+        first, fixed = min(tied), self._is_fixed(tied)
+        known = {first: tied[first]} if item.timing.rigid else tied
+        known = self._not_before_the_block(item, known, fixed=fixed)
+        if (found := self._conflict(item, known, fixed=fixed)) is not None:
             self._resolve(item, tied, found)
             return
         placed = fill(item, known)
@@ -191,10 +192,10 @@ class _Run:
             self._move(cluster, distance)
         return bool(early)
 
-    def _conflict(self, item: Item, known: Mapping[int, Placement]) -> Squeeze | None:
-        """Known points that cannot be where they are."""
+    def _conflict(self, item: Item, known: Mapping[int, Placement], *, fixed: bool) -> Squeeze | None:
+        """Known points that cannot be where they are; ``fixed``: the behavior is tied to a known time."""
         first = min((i for i, placed in known.items() if placed.known), default=None)
-        if first is not None and known[first].time < -SHORTEST and self._is_fixed(known):
+        if first is not None and known[first].time < -SHORTEST and fixed:
             return Squeeze(0, first, 0.0, known[first].time)
         return squeeze(item, known)
 
@@ -266,14 +267,14 @@ class _Run:
         (root, here), (other, there) = self._ties.find(points[first]), self._ties.find(points[index])
         return there - here - preferred if root == other else None
 
-    def _not_before_the_block(self, item: Item, known: dict[int, Placement]) -> dict[int, Placement]:
+    def _not_before_the_block(self, item: Item, known: dict[int, Placement], *, fixed: bool) -> dict[int, Placement]:
         """Have a behavior that would start before its block start with it, by shortening its first phases (7.13).
 
         This does not concern clusters that are moved later, and starts that will follow from an unknown time; that of
         a free behavior does not.
         """
         start = known.get(0) or fill(item, known)[0]
-        early = (start.known or item.timing.free) and start.time < -SHORTEST and self._is_fixed(known)
+        early = (start.known or item.timing.free) and start.time < -SHORTEST and fixed
         return {0: self._start, **known} if early else known
 
     def _is_fixed(self, known: Mapping[int, Placement]) -> bool:
