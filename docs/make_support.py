@@ -100,7 +100,8 @@ _NOTES = {
 most 5 for breaths, 1 for blinks and 2 for the weight",
     "idleChange value": "reached at the end, evenly, and kept until another change",
     "weightShift side": "the foot that supports a standing character: -1 the right one, 1 the left one",
-    "keyPoses group": "the joints that move; only arms have `position` and `swivel`, and only heads `lookAt`",
+    "keyPoses group": "the part of the body that moves; only arms have `position` and `swivel`, only heads and eyes \
+`lookAt`, and eyes no `pose`",
     "keyPoses fadeIn": "time in which it takes over the joints",
     "keyPoses fadeOut": "time in which it releases them, from `relax` to `end`",
     "keyPoses warp": "[time warp](embrscript.md#time-warps) of the ways; without one, as hands reach",
@@ -114,6 +115,10 @@ most 5 for breaths, 1 for blinks and 2 for the weight",
     "position of a keyPose joint": "of the hand; by default, the wrist",
     "position of a keyPose offset": "from the joint, in its axes, m",
     "orientation of a keyPose direction": "to the left, up, ahead",
+    "orientation of a keyPose axis": "of arms PALM, FINGERS, THUMB; of heads FACE, CROWN, LEFT_EAR; of the trunk \
+CHEST, SPINE, LEFT_SIDE; of shoulders SHOULDER; of eyes SIGHT",
+    "orientation of a keyPose joint": "of a trunk one of the spine, by default the uppermost; of shoulders one of \
+them, by default both, of which the direction is the left one's",
     "swivel of a keyPose angle": "of the elbow, degrees, away from the body",
     "lookAt of a keyPose target": "from the pelvis: to the left, up, ahead, m",
     "pose of a keyPose name": "of a file, `NAME.xml` (SkeletonPose), `NAME.bvh` or `NAME.skm`",
@@ -277,8 +282,8 @@ _EMBR = """
 ## EMBRScript
 
 The elements of [EMBRScript](embrscript.md), their parameters, and what they are read as. `TIME_RESET` is read as
-`composition="REPLACE"`. The body groups `eyes`, `leye` and `reye` are not known, nor are the time warps of other
-families than TAN and EXP. What is not realized is named once for a script.
+`composition="REPLACE"`. Time warps of other families than TAN and EXP are not known. What is not realized is named once
+for a script.
 
 """
 

@@ -43,11 +43,13 @@ class PositionGoal:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OrientationGoal:
-    """A hand or the head has a direction; it may still turn about it.
+    """A hand, the head, the trunk, a collarbone or the eyes have a direction; they may still turn about it.
 
     Attributes:
         direction: of the axis, in the figure's axes; of any length above 0.
-        axis: of the hand or the head.
+        axis: of the part of the body.
+        joint: H-Anim name of the joint that has it; None for the wrist, the head or the upper chest, and for both
+            shoulders, of which the direction is that of the left one.
         location: of its element.
     """
 
@@ -55,6 +57,7 @@ class OrientationGoal:
 
     direction: Coordinates = field(metadata=attribute(Vector()))
     axis: BodyAxis = field(default=BodyAxis.PALM, metadata=attribute(Enumeration(BodyAxis)))
+    joint: str | None = field(default=None, metadata=attribute(Text()))
     location: Location = field(compare=False)
 
 
@@ -75,7 +78,7 @@ class SwivelGoal:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LookAtGoal:
-    """The head looks at a place.
+    """The head or the eyes look at a place.
 
     Attributes:
         target: from the pelvis, in the figure's axes, m.
@@ -158,7 +161,7 @@ class KeyPoses(Behavior):
     same joints that started before it.
 
     Attributes:
-        group: the joints that it moves.
+        group: the part of the body that it moves.
         fade_in: time in which it takes over the joints, s.
         fade_out: time in which it releases them, from relax to end, s.
         warp: time warp of the ways to its poses; None for the natural speed of a reach.

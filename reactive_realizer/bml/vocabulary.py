@@ -92,7 +92,7 @@ class PosePart(StrEnum):
 
 
 class BodyGroup(StrEnum):
-    """The joints that a sequence of key poses moves. HEAD_NECK and those after it include the ones before them."""
+    """The part of the body that a sequence of key poses moves. HEAD_NECK and HEAD_... include the ones before them."""
 
     LEFT_ARM = "LEFT_ARM"
     RIGHT_ARM = "RIGHT_ARM"
@@ -104,11 +104,14 @@ class BodyGroup(StrEnum):
     HEAD_BACK = "HEAD_BACK"
     TRUNK = "TRUNK"
     SHOULDERS = "SHOULDERS"
+    EYES = "EYES"
+    LEFT_EYE = "LEFT_EYE"
+    RIGHT_EYE = "RIGHT_EYE"
     WHOLEBODY = "WHOLEBODY"
 
 
 class BodyAxis(StrEnum):
-    """An axis of a hand or of the head, for its orientation."""
+    """An axis of a part of the body, for its orientation."""
 
     PALM = "PALM"
     """Out of the palm."""
@@ -122,6 +125,16 @@ class BodyAxis(StrEnum):
     """Out of the top of the head."""
     LEFT_EAR = "LEFT_EAR"
     """Out of the left ear."""
+    SIGHT = "SIGHT"
+    """Out of the eyes, where they look."""
+    CHEST = "CHEST"
+    """Out of the chest."""
+    SPINE = "SPINE"
+    """Up along the spine."""
+    LEFT_SIDE = "LEFT_SIDE"
+    """Out of the left side of the trunk."""
+    SHOULDER = "SHOULDER"
+    """From the breastbone along the collarbone to the shoulder."""
 
 
 class WarpKind(StrEnum):

@@ -67,6 +67,7 @@ _GROUPS: dict[BodyGroup, frozenset[BodyPart]] = {
     **dict.fromkeys(_HEAD_GROUPS, frozenset({BodyPart.HEAD})),
     **dict.fromkeys(_LEANING_GROUPS, frozenset({BodyPart.HEAD, BodyPart.TRUNK})),
     BodyGroup.TRUNK: frozenset({BodyPart.TRUNK}),
+    **dict.fromkeys((BodyGroup.EYES, BodyGroup.LEFT_EYE, BodyGroup.RIGHT_EYE), frozenset({BodyPart.EYES})),
     BodyGroup.WHOLEBODY: frozenset({BodyPart.HEAD, BodyPart.EYES, BodyPart.ARMS, BodyPart.TRUNK}),
 }
 

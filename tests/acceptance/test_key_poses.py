@@ -138,6 +138,163 @@ async def test_the_head_looks_at_a_place_and_tilts() -> None:
         assert crown == pytest.approx(unit((-0.3, 1.0, 0.0)), abs=0.05)
 
 
+def orientation(axis: str, direction: Vec3, more: str = "") -> str:
+    return f'<rr:orientation axis="{axis}" direction="{direction[0]} {direction[1]} {direction[2]}" {more}/>'
+
+
+def axis_of(body: Body, joint: str, axis: Vec3) -> Vec3:
+    return rotate(body.transform(joint).rotation, axis)
+
+
+def collarbone(body: Body, side: str) -> Vec3:
+    return unit(axis_of(body, f"{side}_sternoclavicular", body.skeleton.offset(f"{side}_shoulder")))
+
+
+async def test_the_chest_turns_and_the_trunk_bows_as_far_as_asked_for() -> None:
+    turned, bowed = unit((0.5, 0.0, 1.0)), unit((0.0, 1.0, 0.7))
+    both = orientation("SPINE", bowed) + orientation("CHEST", (0.3, -0.7, 1.0))
+    two = (pose(0.8, orientation("CHEST", turned), 0.4), pose(2, both, 0.4))
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "TRUNK", *two)))
+        await pilot.advance(3.5)
+        assert dot(axis_of(at(pilot, 1.0), "vt6", (0.0, 0.0, 1.0)), turned) > 0.998
+        assert dot(axis_of(at(pilot, 2.2), "vt6", (0.0, 1.0, 0.0)), bowed) > 0.998
+        chest = axis_of(at(pilot, 2.2), "vt6", (0.0, 0.0, 1.0))
+        assert math.atan2(chest[0], chest[2]) == pytest.approx(math.atan2(0.3, 1.0), abs=0.05)
+        lower, upper = (
+            angle(difference(at(pilot, 0.0).rotation(joint), at(pilot, 2.2).rotation(joint)))
+            for joint in ("vl5", "vt6")
+        )
+        assert lower > upper > 0.1
+        assert distance(from_pelvis(at(pilot, 3.4), "vt6"), from_pelvis(at(pilot, 0.0), "vt6")) < 0.01
+        assert pilot.feedback.warnings == []
+
+
+async def test_a_direction_of_a_lower_joint_of_the_spine_leaves_those_above_it_alone() -> None:
+    lower = pose(0.8, orientation("SPINE", (0.0, 1.0, 0.3), 'joint="vl5"'), 0.4)
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "TRUNK", lower)))
+        await pilot.advance(1.2)
+        body = at(pilot, 1.0)
+        assert dot(axis_of(body, "vl5", (0.0, 1.0, 0.0)), unit((0.0, 1.0, 0.3))) > 0.998
+        assert angle(difference(at(pilot, 0.0).rotation("vt10"), body.rotation("vt10"))) < 0.01
+
+
+@pytest.mark.parametrize(("way", "most"), [((0, -0.2, 1), 80), ((0, 0, -1), 20), ((1, 0, 0), 30)])
+async def test_a_trunk_bends_no_further_than_a_spine_does(way: Vec3, most: float) -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "TRUNK", pose(1, orientation("SPINE", way), 0.4))))
+        await pilot.advance(1.4)
+        bend = math.degrees(math.acos(axis_of(at(pilot, 1.2), "vt6", (0.0, 1.0, 0.0))[1]))
+        assert bend == pytest.approx(most, abs=4)
+
+
+async def test_shoulders_go_up_together_or_one_alone() -> None:
+    up = orientation("SHOULDER", (1.0, 0.0, 0.0))
+    down = orientation("SHOULDER", (-1.0, -0.8, 0.0), 'joint="r_sternoclavicular"')
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "SHOULDERS", pose(0.6, up, 0.3), pose(1.5, down, 0.3))))
+        await pilot.advance(2)
+        before, raised, one = (at(pilot, time) for time in (0.0, 0.8, 1.7))
+        assert dot(collarbone(raised, "l"), (1.0, 0.0, 0.0)) > 0.995
+        assert dot(collarbone(raised, "r"), (-1.0, 0.0, 0.0)) > 0.995
+        wrists = [from_pelvis(body, "l_wrist")[1] for body in (before, raised)]
+        assert wrists[1] - wrists[0] > 0.02
+        assert collarbone(one, "r")[1] < collarbone(before, "r")[1] - 0.05
+        assert collarbone(one, "l")[1] == pytest.approx(collarbone(before, "l")[1], abs=0.05)
+
+
+async def test_a_collarbone_turns_no_further_than_it_can() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "SHOULDERS", pose(0.6, orientation("SHOULDER", (0.0, 1.0, 0.0)), 0.3))))
+        await pilot.advance(1)
+        for side in "lr":
+            way = math.acos(dot(collarbone(at(pilot, 0.0), side), collarbone(at(pilot, 0.8), side)))
+            assert way == pytest.approx(math.radians(30), abs=0.05)
+
+
+def sight(body: Body, eye: str = "l") -> Vec3:
+    return axis_of(body, f"{eye}_eyeball_joint", (0.0, 0.0, 1.0))
+
+
+async def test_eyes_are_at_their_places_at_their_times_and_get_there_by_saccades() -> None:
+    place_, way = (-0.3, 0.4, 0.9), unit((0.0, 0.3, 1.0))
+    two = (pose(0.6, '<rr:lookAt target="-0.3 0.4 0.9"/>', 0.4, "low"), pose(1.5, orientation("SIGHT", way), 0.3))
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "EYES", *two)))
+        await pilot.advance(3)
+        assert pilot.feedback.time("b:k:low") == pytest.approx(0.6)
+        assert pilot.feedback.time("b:k:end") == pytest.approx(1.8)
+        for time in (0.64, 0.98, 1.3):
+            body = at(pilot, time)
+            toward = subtract(place_, from_pelvis(body, "l_eyeball_joint"))
+            assert dot(sight(body), unit(toward)) > 0.9995
+        for time in (1.54, 1.78):
+            assert dot(sight(at(pilot, time)), way) > 0.999
+        turns = [dot(sight(at(pilot, time)), sight(at(pilot, time + 0.02))) for time in np.arange(0, 2.5, 0.02)]
+        assert sum(each < 0.99999 for each in turns) < 25
+        assert angle(difference(at(pilot, 0.0).rotation("skullbase"), at(pilot, 1.0).rotation("skullbase"))) < 0.05
+        assert dot(sight(at(pilot, 2.9)), sight(at(pilot, 0.0))) > 0.99
+        assert pilot.feedback.warnings == []
+
+
+async def test_one_eye_moves_alone() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "RIGHT_EYE", pose(0.5, orientation("SIGHT", (0.4, 0.0, 1.0)), 0.5))))
+        await pilot.advance(1)
+        assert dot(sight(at(pilot, 0.8), "r"), unit((0.4, 0.0, 1.0))) > 0.999
+        assert dot(sight(at(pilot, 0.8), "l"), sight(at(pilot, 0.0), "l")) > 0.99
+
+
+async def test_eyes_keep_to_their_place_above_an_earlier_gaze_and_below_a_later_one() -> None:
+    eyes = poses("k", "EYES", pose(0.5, orientation("SIGHT", (0.3, 0.0, 1.0)), 3), more='start="1"')
+    early = '<gaze id="e" target="viewer" start="0" end="2.4"/>'
+    late = '<gaze id="l" target="viewer" influence="EYES" start="2.5" end="6"/>'
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(early + eyes + late))
+        await pilot.advance(5)
+        assert dot(sight(at(pilot, 0.9)), unit((0.3, 0.0, 1.0))) < 0.98
+        assert dot(sight(at(pilot, 2.0)), unit((0.3, 0.0, 1.0))) > 0.999
+        assert dot(sight(at(pilot, 3.2)), unit((0.3, 0.0, 1.0))) < 0.98
+
+
+async def test_a_place_that_eyes_cannot_see_is_named() -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", "EYES", pose(0.5, '<rr:lookAt target="2 0.6 0.1"/>', 0.5))))
+        await pilot.advance(1)
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert warning.id == "b:k"
+        assert "degrees short of its target" in warning.text
+
+
+@pytest.mark.parametrize(
+    ("group", "goal", "why"),
+    [
+        ("EYES", '<rr:pose name="hands_fist"/>', "EYES have no pose; possible are lookAt, orientation"),
+        ("EYES", orientation("FACE", (0, 0, 1)), "EYES have no orientation of FACE; possible are SIGHT"),
+        ("TRUNK", '<rr:lookAt target="0 0 1"/>', "TRUNK have no lookAt"),
+        ("TRUNK", orientation("CHEST", (0, 0, 1), 'joint="l_knee"'), "no orientation of l_knee; possible are vl5"),
+        ("SHOULDERS", orientation("CHEST", (0, 0, 1)), "no orientation of CHEST; possible are SHOULDER"),
+        ("RIGHT_ARM", orientation("PALM", (0, 0, 1), 'joint="r_elbow"'), "of r_elbow; possible are r_wrist"),
+        ("HEAD", orientation("FACE", (0, 0, 1), 'joint="vc4"'), "orientation of vc4; possible are skullbase"),
+    ],
+)
+async def test_what_a_part_of_the_body_cannot_have_is_named(group: str, goal: str, why: str) -> None:
+    async with open_pilot() as pilot:
+        pilot.perform(document(poses("k", group, pose(0.5, goal))))
+        await pilot.advance(0.1)
+        assert why in pilot.feedback.of("warningFeedback")[0].text
+
+
 async def test_hands_take_the_shapes_of_stored_poses_by_their_influence() -> None:
     fist = pose(0.5, '<rr:pose name="hands_fist"/>', 0.4)
     half = pose(0.5, '<rr:pose name="hands_fist" influence="0.5"/>', 0.4)

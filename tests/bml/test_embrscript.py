@@ -10,7 +10,7 @@ from reactive_realizer.bml.dialects import BML_DIALECT, Dialects
 from reactive_realizer.bml.embr.reader import DIALECT, read
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
 from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
-from reactive_realizer.bml.key_poses import KeyPoses, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
+from reactive_realizer.bml.key_poses import KeyPoses, LookAtGoal, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, Composition, FacePart, WarpKind
 from reactive_realizer.bml.weight_shift import WeightShift
 from reactive_realizer.limits import Limits
@@ -112,6 +112,44 @@ def test_an_orientation_directs_an_axis_of_the_hand(
     (goal,) = key_poses(script(pose)).poses[0].goals
     assert isinstance(goal, OrientationGoal)
     assert (goal.axis, goal.direction) == (axis, direction)
+
+
+@pytest.mark.parametrize(
+    ("written", "group", "axis", "direction", "joint"),
+    [
+        ("spine\nNORMAL:Zaxis", BodyGroup.TRUNK, BodyAxis.CHEST, (1, 3, -2), None),
+        ("upperBodyNoArms\nJOINT:spine4", BodyGroup.TRUNK, BodyAxis.CHEST, (1, 3, -2), None),
+        ("spine\nJOINT:spine1\nNORMAL:Yaxis", BodyGroup.TRUNK, BodyAxis.SPINE, (1, 3, -2), "vl5"),
+        ("spine\nNORMAL:Xaxis", BodyGroup.TRUNK, BodyAxis.LEFT_SIDE, (1, 3, -2), None),
+        ("shoulders\nNORMAL:Yaxis", BodyGroup.SHOULDERS, BodyAxis.SHOULDER, (1, 3, -2), None),
+        ("shoulders\nJOINT:rclavicle", BodyGroup.SHOULDERS, BodyAxis.SHOULDER, (1, 3, -2), "r_sternoclavicular"),
+        ("eyes", BodyGroup.EYES, BodyAxis.SIGHT, (1, 3, -2), None),
+        ("leye\nJOINT:leye\nNORMAL:Yaxis", BodyGroup.LEFT_EYE, BodyAxis.SIGHT, (1, 3, -2), None),
+        ("headNeck\nJOINT:head\nNORMAL:Yaxis", BodyGroup.HEAD_NECK, BodyAxis.CROWN, (1, 3, -2), None),
+        ("rarm\nNORMAL:Xaxis", BodyGroup.RIGHT_ARM, BodyAxis.THUMB, (-1, -3, 2), None),
+        ("rarm\nJOINT:rradius", BodyGroup.RIGHT_ARM, BodyAxis.PALM, (1, 3, -2), "r_elbow"),
+    ],
+)
+def test_an_orientation_directs_an_axis_of_its_group(
+    written: str, group: BodyGroup, axis: BodyAxis, direction: tuple[float, float, float], joint: str | None
+) -> None:
+    pose = f"TIME_POINT:+200\nBEGIN ORIENTATION_CONSTRAINT\nBODY_GROUP:{written}\nDIRECTION:1;2;3\nEND"
+    found = key_poses(script(pose))
+    (goal,) = found.poses[0].goals
+    assert isinstance(goal, OrientationGoal)
+    assert (found.group, goal.axis, goal.direction, goal.joint) == (group, axis, direction, joint)
+
+
+def test_an_axis_that_a_group_does_not_have_is_named() -> None:
+    pose = "TIME_POINT:+200\nBEGIN ORIENTATION_CONSTRAINT\nBODY_GROUP:eyes\nNORMAL:Zaxis\nDIRECTION:0;-1;0\nEND"
+    assert problems(script(pose)) == [(7, "there is no NORMAL Zaxis; known are Yaxis; did you mean 'Yaxis'?")]
+
+
+def test_eyes_look_at_places() -> None:
+    look = "TIME_POINT:+200\nBEGIN LOOK_AT_CONSTRAINT\nBODY_GROUP:eyes\nTARGET:-1;-2;0.5\nEND"
+    found = key_poses(script(look))
+    (goal,) = found.poses[0].goals
+    assert (found.group, type(goal)) == (BodyGroup.EYES, LookAtGoal)
 
 
 def test_all_constraints_of_a_body_group_are_one_behavior() -> None:

@@ -1,7 +1,7 @@
 """Reads the constraints of key poses as goals."""
 
 from collections.abc import Callable, Mapping
-from typing import Final
+from typing import Final, NamedTuple
 
 from reactive_realizer.bml.embr.faults import UnknownName
 from reactive_realizer.bml.embr.syntax import LOOK_AT, ORIENTATION, POSE_TARGET, POSITION, SWIVEL, Node
@@ -16,21 +16,50 @@ from reactive_realizer.bml.key_poses import (
     PositionGoal,
     SwivelGoal,
 )
-from reactive_realizer.bml.vocabulary import BodyAxis
+from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup
 from reactive_realizer.errors import RealizerError, quoted
 
-_AXES: Final[Mapping[str, tuple[BodyAxis, float]]] = {
-    "xaxis": (BodyAxis.THUMB, 1.0),
-    "yaxis": (BodyAxis.FINGERS, 1.0),
-    "zaxis": (BodyAxis.PALM, -1.0),
-}
-"""Axis of a left hand -> its name here, and its sign: y is along the hand, z out of its back."""
 
-_HEAD_AXES: Final[Mapping[str, BodyAxis]] = {
-    "xaxis": BodyAxis.LEFT_EAR,
-    "yaxis": BodyAxis.CROWN,
-    "zaxis": BodyAxis.FACE,
+class _Part(NamedTuple):
+    """A part of the body that has an orientation.
+
+    Attributes:
+        joint: the one that has it where a script names none, without its side; empty for both shoulders.
+        meant: its axis where a script names none.
+        axes: NORMAL in lowercase -> its name here, and its sign; that of THUMB is the one of a left hand.
+    """
+
+    joint: str
+    meant: BodyAxis
+    axes: Mapping[str, tuple[BodyAxis, float]]
+
+
+_HAND: Final = _Part(
+    "wrist",
+    BodyAxis.PALM,
+    {"xaxis": (BodyAxis.THUMB, 1.0), "yaxis": (BodyAxis.FINGERS, 1.0), "zaxis": (BodyAxis.PALM, -1.0)},
+)
+"""y is along the hand, z out of its back."""
+_HEAD: Final = _Part(
+    "skullbase",
+    BodyAxis.FACE,
+    {"xaxis": (BodyAxis.LEFT_EAR, 1.0), "yaxis": (BodyAxis.CROWN, 1.0), "zaxis": (BodyAxis.FACE, 1.0)},
+)
+_TRUNK: Final = _Part(
+    "vt6",
+    BodyAxis.CHEST,
+    {"xaxis": (BodyAxis.LEFT_SIDE, 1.0), "yaxis": (BodyAxis.SPINE, 1.0), "zaxis": (BodyAxis.CHEST, 1.0)},
+)
+_SHOULDER: Final = _Part("", BodyAxis.SHOULDER, {"yaxis": (BodyAxis.SHOULDER, 1.0)})
+_EYE: Final = _Part("eyeball_joint", BodyAxis.SIGHT, {"yaxis": (BodyAxis.SIGHT, 1.0)})
+
+_PARTS: Final[Mapping[BodyGroup, _Part]] = {
+    BodyGroup.TRUNK: _TRUNK,
+    BodyGroup.SHOULDERS: _SHOULDER,
+    **dict.fromkeys((BodyGroup.HEAD, BodyGroup.HEAD_NECK, BodyGroup.HEAD_CHEST, BodyGroup.HEAD_BACK), _HEAD),
+    **dict.fromkeys((BodyGroup.EYES, BodyGroup.LEFT_EYE, BodyGroup.RIGHT_EYE), _EYE),
 }
+"""The part of each group; of others, it is the hand."""
 
 
 def read_goal(node: Node, notes: Notes) -> KeyPoseGoal:
@@ -48,34 +77,31 @@ def _position(node: Node, notes: Notes) -> KeyPoseGoal:
 
 
 def _orientation(node: Node, notes: Notes) -> KeyPoseGoal:
-    """The direction of a hand or head.
+    """The direction of a part of the body.
 
     Some scripts write a vector as NORMAL: the direction of the palm, as DIRECTION without a NORMAL is.
     """
     normal = node.values.get("NORMAL")
     if normal is not None and ";" in normal.text:
-        return _directed(node, notes.vector(node, "NORMAL"), None)
-    return _directed(node, notes.vector(node, "DIRECTION"), normal and normal.text)
+        return _directed(node, notes.vector(node, "NORMAL"), None, notes)
+    return _directed(node, notes.vector(node, "DIRECTION"), normal and normal.text, notes)
 
 
-def _directed(node: Node, direction: Coordinates, axis: str | None) -> KeyPoseGoal:
-    joint = _joint(node) or ""
-    if joint.startswith(("skullbase", "vc")):
-        known: Mapping[str, tuple[BodyAxis, float]] = {name: (each, 1.0) for name, each in _HEAD_AXES.items()}
-        meant = (BodyAxis.FACE, 1.0)
-    else:
-        known, meant = _AXES, (BodyAxis.PALM, 1.0)
+def _directed(node: Node, direction: Coordinates, axis: str | None, notes: Notes) -> KeyPoseGoal:
+    joint, group = _joint(node), notes.body_group(node)
+    part = _PARTS.get(group, _HAND)
+    name, sign = part.meant, 1.0
     if axis is not None:
-        if axis.lower() not in known:
-            fault = UnknownName(kind="NORMAL", name=quoted(axis), known=("Xaxis", "Yaxis", "Zaxis"))
+        if axis.lower() not in part.axes:
+            fault = UnknownName(kind="NORMAL", name=quoted(axis), known=tuple(each.capitalize() for each in part.axes))
             place = node.values["NORMAL"].location
             raise RealizerError(fault.located(place.line, place.column))
-        meant = known[axis.lower()]
-    name, sign = meant
-    if name is BodyAxis.THUMB and joint.startswith("r_"):
+        name, sign = part.axes[axis.lower()]
+    if name is BodyAxis.THUMB and (group is BodyGroup.RIGHT_ARM or (joint or "").startswith("r_")):
         sign = -sign
-    x, y, z = (sign * part + 0.0 for part in direction)
-    return OrientationGoal(direction=(x, y, z), axis=name, location=node.location)
+    x, y, z = (sign * each + 0.0 for each in direction)
+    other = None if joint is not None and joint.endswith(part.joint) and part.joint else joint
+    return OrientationGoal(direction=(x, y, z), axis=name, joint=other, location=node.location)
 
 
 def _swivel(node: Node, notes: Notes) -> KeyPoseGoal:

@@ -19,6 +19,9 @@ BODY_GROUPS: Final[Mapping[str, BodyGroup]] = MappingProxyType(
         "upperBodyNoArms": BodyGroup.TRUNK,
         "spine": BodyGroup.TRUNK,
         "shoulders": BodyGroup.SHOULDERS,
+        "eyes": BodyGroup.EYES,
+        "leye": BodyGroup.LEFT_EYE,
+        "reye": BodyGroup.RIGHT_EYE,
         "all": BodyGroup.WHOLEBODY,
     }
 )
@@ -31,6 +34,7 @@ _PHALANGES = ("Mcp", "Prox", "Dist")
 def _joints() -> dict[str, str]:
     joints = {"spine1": "vl5", "spine2": "vt10", "spine3": "vt10", "spine4": "vt6", "neck": "vc4", "head": "skullbase"}
     for side in "lr":
+        joints[f"{side}eye"] = f"{side}_eyeball_joint"
         joints |= {f"{side}{name}": f"{side}_{joint}" for name, joint in _ARM.items()}
         for number, finger in enumerate(_FINGERS, 1):
             joints |= {f"{side}{number}{bone}": f"{side}_{finger}{i}" for i, bone in enumerate(_PHALANGES, 1)}

@@ -1,7 +1,7 @@
 """A motion as a function of phase, which the animation engine plays between pegs (thesis 4.2)."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from enum import Enum
 from math import inf
 from operator import itemgetter
@@ -107,6 +107,11 @@ class GazeGoal(Protocol):
     @property
     def eyes(self) -> float:
         """Share by which the eyes turn to the target, 0 to 1."""
+        ...
+
+    @property
+    def directed(self) -> Collection[str]:
+        """Joints of the eyes that it directs."""
         ...
 
     def point(self, eyes: Vec3) -> Vec3:

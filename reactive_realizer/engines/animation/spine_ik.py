@@ -1,4 +1,4 @@
-"""Inverse kinematics of the spine: how a trunk leans where an arm alone does not reach its goal. Functions are pure.
+"""Inverse kinematics of the spine: how a trunk turns, and leans where an arm does not reach. Functions are pure.
 
 The joints of the spine bring the shoulder nearer by damped least squares (C. Wampler, "Manipulator inverse kinematic
 solutions based on vector formulations and damped least-squares methods", IEEE Transactions on Systems, Man, and
@@ -24,7 +24,7 @@ from reactive_realizer.embodiment.quaternion import (
     rotation_vector,
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm
-from reactive_realizer.embodiment.vector import ZERO, Vec3, add, cross, distance, scale, subtract, unit
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, cross, distance, length, scale, subtract, unit
 from reactive_realizer.engines.animation.easing import share, smoothstep
 
 Range = tuple[float, float]
@@ -61,6 +61,15 @@ _NEAR: Final = 1e-4
 _GIVEN_UP: Final = (0.1, 0.3)
 """Distances that are left even with the trunk, m: up to the first one, it leans as far as it can, from the second one
 on, not at all."""
+
+
+_STRAIGHT: Final = 1e-3
+"""Turn that need not be made, rad."""
+
+_STIFFNESS: Final = 1e-4
+"""Of turns about axes that no joint has, rad^2."""
+
+_AXES: Final[tuple[Vec3, Vec3, Vec3]] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class HandGoal(NamedTuple):
@@ -210,6 +219,35 @@ def _step(leant: Body, upright: Body, approaches: Sequence[_Approach]) -> dict[s
     rotations = {}
     for joint, (x, y, z) in zip(joints, turns.reshape(-1, 3).tolist(), strict=True):
         rotations[joint] = _limited(multiply(leant.rotation(joint), from_rotation_vector((x, y, z))), joint, upright)
+    return rotations
+
+
+def turned_spine(body: Body, joints: Sequence[str], top: str, rotation: Quat) -> Body:
+    """Return a body with the uppermost of some joints of the spine turned as asked, as far as they allow.
+
+    Args:
+        body: without the turn.
+        joints: that take part, each by its mobility.
+        top: the uppermost of them.
+        rotation: of the top, from its axes to the figure's.
+    """
+    turned = body
+    for _ in range(_STEPS):
+        left = rotation_vector(multiply(rotation, conjugate(turned.transform(top).rotation)))
+        if length(left) < _STRAIGHT:
+            break
+        turned = turned.posed(_turning(turned, body, joints, left))
+    return turned
+
+
+def _turning(turned: Body, upright: Body, joints: Sequence[str], left: Vec3) -> dict[str, Quat]:
+    """Return the rotations of the spine after one step of weighted least squares toward a turn, rad, of the top."""
+    mobility = np.ravel([[(0.5 * (high - low)) ** 2 for low, high in SPINE_RANGES[joint]] for joint in joints])
+    axes = np.hstack([np.transpose([rotate(turned.transform(j).rotation, axis) for axis in _AXES]) for j in joints])
+    turns = mobility * (np.linalg.solve(axes * mobility @ axes.T + _STIFFNESS * np.eye(3), left) @ axes)
+    rotations = {}
+    for joint, (x, y, z) in zip(joints, turns.reshape(-1, 3).tolist(), strict=True):
+        rotations[joint] = _limited(multiply(turned.rotation(joint), from_rotation_vector((x, y, z))), joint, upright)
     return rotations
 
 

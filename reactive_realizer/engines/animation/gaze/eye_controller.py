@@ -176,7 +176,7 @@ def _eye_direction(eye: str, sockets: EyeSockets, points: Mapping[GazeGoal, Vec3
     """Return the goal direction of an eye: each gaze turns it by its weight, starting from the goal of those before."""
     direction = _ahead(multiply(sockets.rotation, resting.get(eye, IDENTITY)))
     for gaze, point in points.items():
-        toward = direction_between(sockets.places[eye], point)
+        toward = direction_between(sockets.places[eye], point) if eye in gaze.directed else None
         if toward is not None:
             direction = turned(direction, toward, gaze.eyes)
     return direction

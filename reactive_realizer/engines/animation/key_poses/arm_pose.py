@@ -11,7 +11,6 @@ from reactive_realizer.embodiment.quaternion import (
     angle,
     between,
     conjugate,
-    from_axis_angle,
     multiply,
     power,
     rotate,
@@ -19,6 +18,7 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import FORWARD, ZERO, Vec3, add, cross, dot, length, rejected, subtract, unit
+from reactive_realizer.engines.animation.key_poses.direction import Direction, turn_about
 from reactive_realizer.engines.animation.procedural.effector_track import natural_arm
 from reactive_realizer.engines.animation.procedural.tracks import parent_rotation
 from reactive_realizer.engines.animation.spine_ik import HandGoal
@@ -47,18 +47,6 @@ def hand_axes(side: str, skeleton: Skeleton) -> dict[BodyAxis, Vec3]:
     thumb = unit(rejected(across, fingers))
     palm = cross(thumb, fingers) if side == "r" else cross(fingers, thumb)
     return {BodyAxis.PALM: palm, BodyAxis.FINGERS: fingers, BodyAxis.THUMB: thumb}
-
-
-class Direction(NamedTuple):
-    """A direction of a hand.
-
-    Attributes:
-        axis: in the axes of the wrist, a unit vector.
-        way: in the figure's axes, a unit vector.
-    """
-
-    axis: Vec3
-    way: Vec3
 
 
 class SolvedArm(NamedTuple):
@@ -159,14 +147,8 @@ class ArmGoals:
         first = self.directions[0]
         hand = multiply(between(rotate(hand, first.axis), first.way), hand)
         if len(self.directions) > 1:
-            hand = multiply(_turn_about(first.way, hand, self.directions[1]), hand)
+            hand = multiply(turn_about(first.way, hand, self.directions[1]), hand)
         return _bent_at_most(multiply(conjugate(forearm), hand))
-
-
-def _turn_about(axis: Vec3, hand: Quat, direction: Direction) -> Quat:
-    """Return the turn about an axis after which a hand has another direction as nearly as possible."""
-    now, goal = rejected(rotate(hand, direction.axis), axis), rejected(direction.way, axis)
-    return from_axis_angle(axis, math.atan2(dot(cross(now, goal), axis), dot(now, goal)))
 
 
 def _bent_at_most(wrist: Quat) -> Quat:

@@ -4,7 +4,7 @@ from typing import Final
 
 from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.embodiment.body import Skeleton
-from reactive_realizer.embodiment.joints import HEAD, LEFT_ARM, RIGHT_ARM, TRUNK
+from reactive_realizer.embodiment.joints import EYES, HEAD, LEFT_ARM, RIGHT_ARM, TRUNK
 
 _NOT_FINGERS: Final = ("sternoclavicular", "shoulder", "elbow", "wrist")
 
@@ -22,6 +22,9 @@ def group_joints(group: BodyGroup, skeleton: Skeleton) -> tuple[str, ...]:
         BodyGroup.HEAD_BACK: (*TRUNK[1:], *HEAD),
         BodyGroup.TRUNK: TRUNK[1:],
         BodyGroup.SHOULDERS: ("l_sternoclavicular", "r_sternoclavicular"),
+        BodyGroup.EYES: EYES,
+        BodyGroup.LEFT_EYE: EYES[:1],
+        BodyGroup.RIGHT_EYE: EYES[1:],
         BodyGroup.WHOLEBODY: skeleton.joints,
     }
     return tuple(joint for joint in skeleton.joints if joint in arms[group])

@@ -17,12 +17,9 @@ from reactive_realizer.engines.animation.gaze.head_turn import (
     head_turn_toward,
     joint_weights,
 )
-from reactive_realizer.engines.animation.key_poses.arm_pose import Direction
+from reactive_realizer.engines.animation.key_poses.direction import FAR, Direction
 
 _HEAD = "skullbase"
-
-_FAR = 100.0
-"""Distance of a point that stands for a direction, m."""
 
 _MOST_TILT = math.radians(40.0)
 """Limit of the tilt of a head: sideways bend of a healthy neck."""
@@ -75,7 +72,7 @@ class HeadPose:
             point = add(body.transform(body.skeleton.joints[0]).position, self.place)
             here |= self._turned(body, rest, lambda eyes: point)
         elif faced:
-            here |= self._turned(body, rest, lambda eyes: add(eyes, scale(faced[0], _FAR)))
+            here |= self._turned(body, rest, lambda eyes: add(eyes, scale(faced[0], FAR)))
         for each in self.directions:
             if each.axis != HEAD_AXES[BodyAxis.FACE]:
                 here[_HEAD] = _tilted(body.posed(here), each)

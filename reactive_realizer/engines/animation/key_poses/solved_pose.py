@@ -9,6 +9,7 @@ from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals
 from reactive_realizer.engines.animation.key_poses.head_pose import HeadPose
+from reactive_realizer.engines.animation.key_poses.trunk_pose import ShoulderPose, TrunkPose
 from reactive_realizer.engines.animation.spine_ik import HandGoal
 
 
@@ -95,24 +96,24 @@ class SeveralPoses:
 class SolvedPose:
     """The goals of a key pose, ready to be met.
 
-    Goals of an arm and of a head come before stored rotations.
+    Other goals come before stored rotations.
 
     Attributes:
         stored: rotations of joints, as in a file.
         influence: share of the way from the rest pose to the stored rotations.
         arm: goals of an arm.
-        head: goals of a head.
+        carrying: goals of a head, a trunk or shoulders.
     """
 
     stored: Mapping[str, Quat] = field(default_factory=dict)
     influence: float = 1.0
     arm: ArmGoals | None = None
-    head: HeadPose | None = None
+    carrying: HeadPose | TrunkPose | ShoulderPose | None = None
 
     @property
     def joints(self) -> frozenset[str]:
         """The joints that it turns."""
-        parts = (self.stored, self.arm.joints if self.arm else (), self.head.joints if self.head else ())
+        parts = (self.stored, self.arm.joints if self.arm else (), self.carrying.joints if self.carrying else ())
         return frozenset(joint for part in parts for joint in part)
 
     def solve(self, body: Body, rest: Mapping[str, Quat]) -> SolvedRotations:
@@ -124,8 +125,8 @@ class SolvedPose:
         """
         rotations = {joint: slerp(rest[joint], goal, self.influence) for joint, goal in self.stored.items()}
         missed = None
-        if self.head is not None:
-            rotations |= self.head.solve(body, rest)
+        if self.carrying is not None:
+            rotations |= self.carrying.solve(body, rest)
         if self.arm is not None:
             end = f"{self.arm.side}_wrist"
             solved = self.arm.solve(body, rotations.get(end, rest[end]))

@@ -14,7 +14,7 @@ from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.joints import HEAD, TRUNK
+from reactive_realizer.embodiment.joints import EYES, HEAD, TRUNK
 from reactive_realizer.embodiment.place import heading_of
 from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, from_axis_angle, multiply, slerp
@@ -300,6 +300,11 @@ class GazeMotionUnit(MotionUnit):
     def eyes(self) -> float:
         """Share by which the eyes turn to the target, 0 to 1."""
         return self.parameters.get(EYE_WEIGHT, 0.0)
+
+    @property
+    def directed(self) -> tuple[str, str]:
+        """Both eyes."""
+        return EYES
 
     def looks(self, phase: float) -> bool:
         """Return whether it directs the eyes at a phase: they arrive first, and leave first."""

@@ -15,7 +15,8 @@ from reactive_realizer.embodiment.quaternion import rotate, slerp
 from reactive_realizer.embodiment.vector import ZERO, add, distance, scale, subtract
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.faults import NoGoals
-from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, Direction, hand_axes
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, hand_axes
+from reactive_realizer.engines.animation.key_poses.direction import Direction
 from reactive_realizer.engines.animation.key_poses.solved_pose import SeveralPoses, SolvedPose
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motions.greta_hands import GretaFigure, HandState

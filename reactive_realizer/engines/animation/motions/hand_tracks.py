@@ -9,7 +9,8 @@ from typing import Generic, TypeVar
 from reactive_realizer.bml.murml.description import Bend
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import Vec3, add, cross, length, scale, subtract, unit
-from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, Direction
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals
+from reactive_realizer.engines.animation.key_poses.direction import Direction
 from reactive_realizer.engines.animation.key_poses.solved_pose import SolvedPose
 
 T = TypeVar("T")

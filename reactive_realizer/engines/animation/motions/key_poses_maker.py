@@ -5,15 +5,17 @@ from functools import partial
 from itertools import zip_longest
 from typing import NamedTuple
 
-from reactive_realizer.bml.key_poses import KeyPose, KeyPoses
+from reactive_realizer.bml.key_poses import KeyPose, KeyPoses, LookAtGoal, OrientationGoal
 from reactive_realizer.bml.time_warps import warped
 from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.faults import NoGoals, WrongElement
+from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
 from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
+from reactive_realizer.engines.animation.motions.eye_keys import EyeKey, EyeKeysMotionUnit
 from reactive_realizer.engines.animation.motions.key_poses import Key, KeyPosesMotionUnit
-from reactive_realizer.engines.animation.motions.pose_goals import PoseGoals
+from reactive_realizer.engines.animation.motions.pose_goals import EYE_GROUPS, PoseGoals
 from reactive_realizer.engines.animation.shortest import Profile
 from reactive_realizer.engines.animation.tcb import Tcb
 from reactive_realizer.errors import RealizerError
@@ -75,7 +77,7 @@ class KeyPosesMaker:
     def __init__(self, context: MakerContext) -> None:
         self._context = context
 
-    def __call__(self, request: MotionRequest) -> KeyPosesMotionUnit:
+    def __call__(self, request: MotionRequest) -> KeyPosesMotionUnit | EyeKeysMotionUnit:
         """Make a motion.
 
         Raises:
@@ -86,6 +88,16 @@ class KeyPosesMaker:
             raise RealizerError(WrongElement(unit="key-poses", element=behavior.name))
         rest = self._context.rest.body
         goals = PoseGoals(behavior.group, self._context, rest)
+        motion = self._eyes(behavior, goals) if behavior.group in EYE_GROUPS else self._joints(behavior, goals)
+        motion.notes = goals.notes
+        return motion
+
+    def _joints(self, behavior: KeyPoses, goals: PoseGoals) -> KeyPosesMotionUnit:
+        """Make a motion of joints.
+
+        Raises:
+            RealizerError: "no-goals".
+        """
         met: list[_Met] = []
         left = 0.0
         for pose in behavior.poses:
@@ -95,10 +107,29 @@ class KeyPosesMaker:
             left = pose.time + pose.hold
         keys = _keys(met, behavior)
         if not keys:
-            raise RealizerError(goals.notes[0] if len(goals.notes) == 1 else NoGoals(reasons=goals.reasons))
+            raise _none(goals)
         points = {pose.id: pose.time for pose in behavior.poses if pose.id}
         fades = behavior.fade_in, behavior.fade_out
         whole = behavior.group is BodyGroup.WHOLEBODY
-        motion = KeyPosesMotionUnit(behavior.id, keys, rest, points, fades, whole_body=whole)
-        motion.notes = goals.notes
-        return motion
+        return KeyPosesMotionUnit(behavior.id, keys, self._context.rest.body, points, fades, whole_body=whole)
+
+    def _eyes(self, behavior: KeyPoses, goals: PoseGoals) -> EyeKeysMotionUnit:
+        """Make a motion of eyes; of several goals of a pose, the last one counts.
+
+        Raises:
+            RealizerError: "no-goals".
+        """
+        keys = [
+            EyeKey.of(pose, looks[-1])
+            for pose in behavior.poses
+            if (looks := [goal for goal in goals.met(pose.goals) if isinstance(goal, LookAtGoal | OrientationGoal)])
+        ]
+        if not keys:
+            raise _none(goals)
+        rest = self._context.rest.body
+        return EyeKeysMotionUnit(behavior, keys, frozenset(group_joints(behavior.group, rest.skeleton)), rest)
+
+
+def _none(goals: PoseGoals) -> RealizerError:
+    """Return why no goal can be met."""
+    return RealizerError(goals.notes[0] if len(goals.notes) == 1 else NoGoals(reasons=goals.reasons))

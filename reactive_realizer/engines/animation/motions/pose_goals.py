@@ -1,7 +1,7 @@
 """Turns the goals of key poses into what a figure can do."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Final
@@ -10,20 +10,31 @@ from reactive_realizer.binding.asset_file import first_asset
 from reactive_realizer.bml.key_poses import KeyPoseGoal, LookAtGoal, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup
 from reactive_realizer.embodiment.body import Body, Skeleton
-from reactive_realizer.embodiment.joints import other_side
+from reactive_realizer.embodiment.joints import HEAD, other_side
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
-from reactive_realizer.embodiment.vector import Vec3, add, length, subtract, unit
+from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, length, subtract, unit
 from reactive_realizer.engines.animation.faults import NoDirection, NotOfGroup
-from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, Direction, hand_axes
+from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, hand_axes
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
+from reactive_realizer.engines.animation.key_poses.direction import Direction
 from reactive_realizer.engines.animation.key_poses.head_pose import HEAD_AXES, WEIGHTS, HeadPose
 from reactive_realizer.engines.animation.key_poses.solved_pose import SolvedPose
+from reactive_realizer.engines.animation.key_poses.trunk_pose import (
+    TRUNK_AXES,
+    ShoulderPose,
+    TrunkPose,
+    shoulder_axis,
+)
 from reactive_realizer.engines.animation.keyframe.clip_files import CLIPS, is_capture, load_clip
 from reactive_realizer.engines.animation.keyframe.keyframe_files import read_skeleton_pose
 from reactive_realizer.engines.animation.motion_maker import MakerContext
 from reactive_realizer.errors import Fault, RealizerError
 
 _ARMS: Final = {BodyGroup.LEFT_ARM: "l", BodyGroup.RIGHT_ARM: "r"}
+EYE_GROUPS: Final = (BodyGroup.EYES, BodyGroup.LEFT_EYE, BodyGroup.RIGHT_EYE)
+"""The groups whose goals direct the eyes (`EyeKeysMotionUnit`)."""
+_LOOKING: Final = (*WEIGHTS, *EYE_GROUPS)
+_OF_EYES: Final = (LookAtGoal.ELEMENT, OrientationGoal.ELEMENT)
 _SHORTEST: Final = 1e-6
 """A shorter vector has no direction."""
 
@@ -56,9 +67,13 @@ class PoseGoals:
         """The sentences of the notes."""
         return tuple(fault.sentence for fault in self.notes)
 
+    def met(self, goals: Iterable[KeyPoseGoal]) -> list[KeyPoseGoal]:
+        """Return the goals that the figure can meet."""
+        return [goal for goal in goals if self._is_met(goal)]
+
     def solved(self, goals: Iterable[KeyPoseGoal]) -> SolvedPose | None:
         """Return the pose that meets goals; None if the figure can meet none of them."""
-        met = [goal for goal in goals if self._is_met(goal)]
+        met = self.met(goals)
         if not met:
             return None
         stored = [goal for goal in met if isinstance(goal, PoseGoal)]
@@ -66,8 +81,16 @@ class PoseGoals:
         influence = stored[-1].influence if stored else 1.0
         others = [goal for goal in met if not isinstance(goal, PoseGoal)]
         arm = self._arm(others) if self._side and others else None
-        head = self._head(others) if self._group in WEIGHTS and others else None
-        return SolvedPose(rotations, influence, arm, head)
+        return SolvedPose(rotations, influence, arm, self._carrying(others) if others else None)
+
+    def _carrying(self, goals: Sequence[KeyPoseGoal]) -> HeadPose | TrunkPose | ShoulderPose | None:
+        """Return the goals of a head, a trunk or shoulders; None for those of an arm."""
+        if self._group in WEIGHTS:
+            return self._head(goals)
+        directed = [goal for goal in goals if isinstance(goal, OrientationGoal)]
+        if self._group is BodyGroup.TRUNK:
+            return self._trunk(directed)
+        return self._shoulders(directed) if self._group is BodyGroup.SHOULDERS else None
 
     def _is_met(self, goal: KeyPoseGoal) -> bool:
         """Return whether the figure can meet a goal; otherwise, note why not."""
@@ -88,11 +111,13 @@ class PoseGoals:
         kind = goal.ELEMENT
         match goal:
             case PoseGoal():
+                if self._group in EYE_GROUPS:
+                    raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=_OF_EYES))
                 if goal.pose not in self._stored:
                     self._stored[goal.pose] = stored_pose(goal.pose, self._group, self._context)
             case LookAtGoal():
-                if self._group not in WEIGHTS:
-                    raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(WEIGHTS)))
+                if self._group not in _LOOKING:
+                    raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(_LOOKING)))
             case SwivelGoal():
                 if self._side is None:
                     raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(_ARMS)))
@@ -103,15 +128,30 @@ class PoseGoals:
             case OrientationGoal():
                 axes = self._axes()
                 if goal.axis not in axes:
-                    known = tuple(axes) or ("the axes of an arm or a head",)
+                    known = tuple(axes) or ("the axes of an arm, a head, a trunk, shoulders or eyes",)
                     raise RealizerError(NotOfGroup(goal=f"{kind} of {goal.axis}", group=self._group, known=known))
+                if goal.joint is not None and goal.joint not in (directed := self._directed()):
+                    fault = NotOfGroup(goal=f"{kind} of {goal.joint}", group=self._group, known=directed)
+                    raise RealizerError(fault)
                 if length(goal.direction) < _SHORTEST:
                     raise RealizerError(NoDirection())
 
     def _axes(self) -> Mapping[BodyAxis, Vec3]:
         if self._side is not None:
             return hand_axes(self._side, self._skeleton)
+        if self._group is BodyGroup.SHOULDERS:
+            return {BodyAxis.SHOULDER: shoulder_axis("l", self._skeleton)}
+        if self._group is BodyGroup.TRUNK:
+            return TRUNK_AXES
+        if self._group in EYE_GROUPS:
+            return {BodyAxis.SIGHT: FORWARD}
         return HEAD_AXES if self._group in WEIGHTS else {}
+
+    def _directed(self) -> tuple[str, ...]:
+        """Return the joints of the group that may have directions."""
+        if self._side is not None:
+            return (f"{self._side}_wrist",)
+        return HEAD[1:] if self._group in WEIGHTS else group_joints(self._group, self._skeleton)
 
     def _check_joint(self, joint: str | None) -> None:
         if joint is not None and (
@@ -162,6 +202,25 @@ class PoseGoals:
             elif isinstance(goal, OrientationGoal):
                 directions.append(Direction(HEAD_AXES[goal.axis], unit(goal.direction)))
         return HeadPose(self._group, place, tuple(directions))
+
+    def _trunk(self, goals: Iterable[OrientationGoal]) -> TrunkPose:
+        spine = group_joints(self._group, self._skeleton)
+        directions: dict[str, tuple[Direction, ...]] = {}
+        for goal in sorted(goals, key=lambda goal: spine.index(goal.joint or spine[-1])):
+            joint = goal.joint or spine[-1]
+            directions[joint] = (*directions.get(joint, ()), Direction(TRUNK_AXES[goal.axis], unit(goal.direction)))
+        return TrunkPose(spine, directions)
+
+    def _shoulders(self, goals: Iterable[OrientationGoal]) -> ShoulderPose:
+        """Return the goals of shoulders; a direction without a joint is mirrored for the right one."""
+        ways: dict[str, Vec3] = {}
+        for goal in goals:
+            x, y, z = unit(goal.direction)
+            if goal.joint is not None:
+                ways[goal.joint[0]] = (x, y, z)
+            else:
+                ways |= {"l": (x, y, z), "r": (-x, y, z)}
+        return ShoulderPose(ways)
 
 
 def stored_pose(name: str, group: BodyGroup, context: MakerContext) -> Mapping[str, Quat]:
