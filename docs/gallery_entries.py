@@ -77,6 +77,8 @@ _MURML_POSE = """
 </murml-description>
 """.strip()
 
+_MURML_PLACE = _MURML_POSE.replace("LocShoulder LocCenterRight LocNorm", "-0.25 0.42 0.28")
+
 _MURML_HANDS = """
 <murml-description>
   <symmetrical dominant="right_arm" symmetry="SymMS">
@@ -93,6 +95,50 @@ _MURML_HANDS = """
     </parallel>
   </symmetrical>
 </murml-description>
+""".strip()
+
+_KEY_POSES = f"""
+<rr:keyPoses xmlns:rr="{OWN}" id="arm" group="RIGHT_ARM" fadeOut="0.6" start="0">
+  <rr:keyPose time="0.7" hold="0.6">
+    <rr:position target="-0.25 0.42 0.28" joint="r_wrist"/>
+    <rr:orientation direction="0 1 0" axis="FINGERS"/>
+    <rr:orientation direction="0 0 1"/>
+  </rr:keyPose>
+</rr:keyPoses>
+<rr:keyPoses xmlns:rr="{OWN}" id="hand" group="RIGHT_HAND" fadeOut="0.6" start="0">
+  <rr:keyPose time="0.7" hold="0.6"><rr:pose name="hands_open-straight"/></rr:keyPose>
+</rr:keyPoses>
+""".strip()
+
+_EMBRSCRIPT = """
+BEGIN K_POSE_SEQUENCE
+  FADE_OUT:600
+  BEGIN K_POSE
+    TIME_POINT:+700
+    HOLD:600
+    BEGIN POSITION_CONSTRAINT
+      BODY_GROUP:rarm
+      JOINT:rhand
+      TARGET:-0.25;-0.28;0.42
+    END
+    BEGIN ORIENTATION_CONSTRAINT
+      BODY_GROUP:rarm
+      JOINT:rhand
+      NORMAL:Yaxis
+      DIRECTION:0;0;1
+    END
+    BEGIN ORIENTATION_CONSTRAINT
+      BODY_GROUP:rarm
+      JOINT:rhand
+      NORMAL:Zaxis
+      DIRECTION:0;1;0
+    END
+    BEGIN POSE_TARGET
+      BODY_GROUP:rhand
+      POSE_KEY:hands_open-straight
+    END
+  END
+END
 """.strip()
 
 _BALANCE = """
@@ -167,6 +213,9 @@ _UNITS = (
         "Would you like to see it?</text></speech>",
         face=True,
     ),
+    Entry("language-bml", _KEY_POSES),
+    Entry("language-embrscript", "", script=_EMBRSCRIPT),
+    Entry("language-murml", f'<murmlgesture xmlns="{MURML}" id="g">\n{_MURML_PLACE}\n</murmlgesture>'),
     Entry("locomotion", '<locomotion id="w" target="-0.8 -0.1"/>', whole_body=True),
     Entry("locomotion-run", '<locomotion id="w" target="-1.2 -1" manner="RUN"/>', whole_body=True),
     Entry("locomotion-strafe", '<locomotion id="w" target="0.6 0" manner="STRAFE"/>', whole_body=True),

@@ -18,6 +18,7 @@ class Entry:
         held: how many faces it holds, each in one picture, which the caption names; 0 for other strips.
         avatar: name of its file without the suffix.
         caption: is shown below the picture, if it is not empty.
+        script: EMBRScript that plays instead of the behaviors, if it is not empty.
     """
 
     name: str
@@ -30,9 +31,17 @@ class Entry:
     held: int = 0
     avatar: str = "female"
     caption: str = ""
+    script: str = ""
 
     @property
     def block(self) -> str:
-        """The block that plays it."""
+        """The id of the block that plays it, the first one of a session."""
+        return "document1" if self.script else self.name
+
+    @property
+    def document(self) -> str:
+        """The document that plays it."""
+        if self.script:
+            return self.script
         namespaces = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmlt="http://hmi.ewi.utwente.nl/bmlt"'
         return f'<bml {namespaces} id="{self.name}">{self.behaviors}</bml>'

@@ -61,6 +61,7 @@ SECTIONS = {
     "Expressivity": ("expressivity",),
     "Postures": ("pose", "stance", "postureshift"),
     "Procedural animations": ("procanimation", "procanimationgesture"),
+    "One gesture in three languages": ("language",),
     OTHERS: (),
 }
 """The sections of the page, with the first words of the names of their entries."""
@@ -132,7 +133,7 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
     """An entry at moments from its start to its end, side by side."""
     live = camera.live
     ticks = live.ticker.ticks()
-    live.realizer.put(BmlText(entry.block))
+    live.realizer.put(BmlText(entry.document))
     await live.step(await anext(ticks))
     await live.realizer.settle()
     await live.step(await anext(ticks))
@@ -156,7 +157,7 @@ async def strip(camera: Camera, entry: Entry) -> Image.Image:
 
 def _end(live: LiveScene, entry: Entry) -> float:
     """The time of the last picture of an entry: the end of its block or later."""
-    block = live.realizer.scheduler.blocks.find(next(iter(live.realizer.characters)), entry.name)
+    block = live.realizer.scheduler.blocks.find(next(iter(live.realizer.characters)), entry.block)
     now = live.realizer.time
     end = now if block is None or block.end.value is None else block.end.value
     return min(max(end, now + entry.seconds), now + LONGEST)
@@ -264,7 +265,8 @@ def _lines(entry: Entry) -> list[str]:
     if entry.caption:
         lines += [entry.caption, ""]
     if not entry.held:  # its keyframes are long
-        lines += ["```xml", entry.behaviors, "```", ""]
+        language, text = ("embr", entry.script) if entry.script else ("xml", entry.behaviors)
+        lines += [f"```{language}", text, "```", ""]
     if entry.push is not None:
         lines += [f"pushed with {max(map(abs, entry.push)):g} N for 0.2 s", ""]
     return lines
