@@ -3,14 +3,21 @@
 import gc
 import os
 import shutil
-from collections.abc import Generator
+import threading
+from collections.abc import Generator, Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from coilmq.queue import QueueManager
+from coilmq.server import socket_server
+from coilmq.store.memory import MemoryQueue
+from coilmq.topic import TopicManager
+from coilmq.util.frames import Frame, FrameBuffer
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 
+from reactive_realizer.client.stomp_bus import Broker
 from reactive_realizer.server.routes_page import STATIC
 
 # Failing assertions of the contracts show the values that they compared.
@@ -128,3 +135,26 @@ def shared_cases(shared: Path) -> Path:
 def tests_data() -> Path:
     """Our own files for tests."""
     return Path(__file__).parent / "data"
+
+
+class WholeFrames(FrameBuffer):  # type: ignore[misc]  # CoilMQ has no types
+    """A buffer that gives only frames that have arrived completely; CoilMQ's fails at others without a length."""
+
+    def extract_frame(self) -> Frame | None:
+        self._buffer.seek(self._pointer)
+        return super().extract_frame() if b"\0" in self._buffer.read() else None
+
+
+@pytest.fixture
+def broker(monkeypatch: pytest.MonkeyPatch) -> Iterator[Broker]:
+    """A message broker that is spoken to by STOMP."""
+    monkeypatch.setattr(socket_server, "FrameBuffer", WholeFrames)
+    queues = QueueManager(store=MemoryQueue())
+    with socket_server.ThreadedStompServer(
+        ("127.0.0.1", 0), queue_manager=queues, topic_manager=TopicManager()
+    ) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield Broker("127.0.0.1", server.server_address[1])
+        server.shutdown()
+        thread.join()

@@ -3,19 +3,18 @@
 import asyncio
 from collections.abc import Mapping
 from functools import partial
-from typing import Final
 
-from reactive_realizer.bridges.stomp_bus import Broker, StompBus, connected
 from reactive_realizer.bridges.vhmsg_bridge import VhmsgBridge, ends
-from reactive_realizer.bridges.vhmsg_messages import VhMessage
+from reactive_realizer.bridges.vhmsg_feedback import FeedbackForm
 from reactive_realizer.client.realizer_socket import RealizerSocket
+from reactive_realizer.client.stomp_bus import Broker, StompBus, connected
+from reactive_realizer.client.vh_message import VhMessage
 from reactive_realizer.errors import RealizerError
 
-SCOPE: Final = "DEFAULT_SCOPE"
-"""The usual scope of messages."""
 
-
-async def run_bridge(url: str, broker: Broker, scope: str, agents: Mapping[str, str]) -> None:
+async def run_bridge(
+    url: str, broker: Broker, scope: str, agents: Mapping[str, str], form: FeedbackForm = FeedbackForm.NONE
+) -> None:
     """Pass messages on until the toolkit asks this component to end.
 
     Args:
@@ -23,13 +22,14 @@ async def run_bridge(url: str, broker: Broker, scope: str, agents: Mapping[str, 
         broker: of the toolkit.
         scope: of its messages.
         agents: characters by the names of agents; other agents have the name of their character.
+        form: of feedback on behaviors.
 
     Raises:
         RealizerError: "not-reached", "other-protocol" or "no-broker"; also if a connection is lost.
     """
     async with RealizerSocket(url) as realizer, connected(broker, f"/topic/{scope}") as bus:
         known = {character["id"]: character["id"] for character in realizer.hello["characters"]}
-        bridge = VhmsgBridge({**known, **agents}, partial(_send, bus, scope))
+        bridge = VhmsgBridge({**known, **agents}, partial(_send, bus, scope), form)
         bridge.announce()
         try:
             async with asyncio.TaskGroup() as group:
@@ -52,4 +52,4 @@ async def _take(bus: StompBus, bridge: VhmsgBridge, realizer: RealizerSocket) ->
 
 
 def _send(bus: StompBus, scope: str, message: VhMessage) -> None:
-    bus.send(message.text, ELVISH_SCOPE=scope, MESSAGE_PREFIX=message.word)
+    bus.send(message.text, **message.headers(scope))

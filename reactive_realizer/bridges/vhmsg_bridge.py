@@ -7,7 +7,9 @@ from typing import Any, Final
 
 from lxml import etree
 
-from reactive_realizer.bridges.vhmsg_messages import Act, VhMessage
+from reactive_realizer.bridges.vhmsg_feedback import FeedbackForm, feedback_message
+from reactive_realizer.bridges.vhmsg_messages import Act
+from reactive_realizer.client.vh_message import VhMessage
 from reactive_realizer.errors import quoted
 
 logger = logging.getLogger(__name__)
@@ -48,9 +50,16 @@ class VhmsgBridge:
     Args:
         characters: of the realizer, by the names of agents.
         send: sends a message to the toolkit.
+        form: of feedback on behaviors.
     """
 
-    def __init__(self, characters: Mapping[str, str], send: Callable[[VhMessage], object]) -> None:
+    def __init__(
+        self,
+        characters: Mapping[str, str],
+        send: Callable[[VhMessage], object],
+        form: FeedbackForm = FeedbackForm.NONE,
+    ) -> None:
+        self._form = form
         self._characters = characters
         self._send = send
         self._played: dict[str, _Played] = {}
@@ -90,10 +99,13 @@ class VhmsgBridge:
                 self._report_failure(self._played[ref], reason, set(rest.get("blocks", ())))
 
     def _report_feedback(self, feedback: etree._Element) -> None:
-        block, _, point = feedback.get("id", "").partition(":")
+        id_ = feedback.get("id") or next((block.get("id", "") for block in feedback), "")
+        block, _, point = id_.partition(":")
         played = self._played.get(block)
         if played is None:
             return
+        if (detail := feedback_message(self._form, feedback, played.act.agent)) is not None:
+            self._send(detail)
         kind = etree.QName(feedback).localname
         if kind == "blockProgress" and point == "start" and not played.started:
             played.started = True

@@ -1,18 +1,14 @@
-"""Messages of the Virtual Human Toolkit: VHMSG, over ActiveMQ.
-
-The text of a message is its first word, which selects it, and an argument, encoded as in a form of HTML (UTF-8). Some
-programs do not encode it.
-"""
+"""Requests of the Virtual Human Toolkit, and what is reported of them."""
 
 import re
 from collections.abc import Container, Iterator
 from itertools import chain, count
 from typing import Final, NamedTuple
-from urllib.parse import quote_plus, unquote_plus
 
 from lxml import etree
 
 from reactive_realizer.bml.smartbody.requests import with_closed_marks
+from reactive_realizer.client.vh_message import VhMessage
 
 _SPEAK: Final = "vrSpeak"
 _AGENT_BML: Final = "vrAgentBML"
@@ -27,25 +23,6 @@ _NO_ID: Final = re.compile(r"[^\w.-]")
 _ACT: Final = "act"
 _PARTICIPANT: Final = "participant"
 _BLOCK: Final = "bml"
-
-
-class VhMessage(NamedTuple):
-    """A message: its first word, and the rest, decoded."""
-
-    word: str
-    argument: str
-
-    @classmethod
-    def read(cls, text: str) -> "VhMessage":
-        """The message in a text."""
-        word, _, argument = text.strip().partition(" ")
-        encoded = not re.search(r"[\s<]", argument)
-        return cls(word, unquote_plus(argument) if encoded else argument)
-
-    @property
-    def text(self) -> str:
-        """The message as it is sent."""
-        return f"{self.word} {quote_plus(self.argument)}"
 
 
 class Act(NamedTuple):

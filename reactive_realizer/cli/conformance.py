@@ -6,7 +6,9 @@ import json
 from collections import Counter
 from collections.abc import AsyncIterator, Mapping
 
+from reactive_realizer.cli.broker_options import USER_OF_BROKER, add_broker, broker_of
 from reactive_realizer.cli.realize import seconds
+from reactive_realizer.conformance.broker_connection import BrokerConnection
 from reactive_realizer.conformance.case import PROFILES, Profile, read_suite
 from reactive_realizer.conformance.connection import Connection, ProgramConnection, SocketConnection
 from reactive_realizer.conformance.suite import PATIENCE, TOLERANCE, Outcome, Verdict, run_suite
@@ -21,12 +23,20 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "Runs a suite of BML scripts against a server and reports every failed assertion. Everything that plays on the "
         "server is stopped."
     )
-    parser.epilog = "example: reactive-realizer conformance http://127.0.0.1:8088 --case append --case replace"
+    parser.epilog = (
+        f"example: reactive-realizer conformance http://127.0.0.1:8088 --case append --case replace; {USER_OF_BROKER}"
+    )
     realizer = parser.add_mutually_exclusive_group(required=True)
     realizer.add_argument("url", metavar="URL", nargs="?", help="the address of the server, http://127.0.0.1:8088")
     realizer.add_argument(
         "--program", metavar="COMMAND", help="a program that reads BML and writes feedback, instead of a server"
     )
+    realizer.add_argument(
+        "--agent",
+        metavar="NAME",
+        help="an agent of the Virtual Human Toolkit, behind a broker, instead of a server",
+    )
+    add_broker(parser)
     parser.add_argument(
         "--profile",
         action="append",
@@ -60,15 +70,18 @@ async def _run(options: argparse.Namespace) -> int:
     profiles = {*Profile} if _ALL in asked else {Profile.BML, *map(Profile, asked)}
     wanted = options.case or [case.name for case in read_suite() if case.profile in profiles]
     cases = [case for case in read_suite() if case.name in wanted]
-    connection: Connection
-    if options.program:
-        connection = ProgramConnection(options.program, PATIENCE)
-    else:
-        connection = SocketConnection(options.url, PATIENCE)
-    outcomes = run_suite(connection, cases, profiles, options.tolerance)
-    realizer = options.program or options.url
+    outcomes = run_suite(_connection(options), cases, profiles, options.tolerance)
+    realizer = options.program or options.agent or options.url
     verdicts = await (_print_json(realizer, outcomes) if options.json else _print_table(outcomes))
     return 1 if verdicts[Verdict.FAILED] else 0
+
+
+def _connection(options: argparse.Namespace) -> Connection:
+    if options.program:
+        return ProgramConnection(options.program, PATIENCE)
+    if options.agent:
+        return BrokerConnection(broker_of(options), options.scope, options.agent, PATIENCE)
+    return SocketConnection(options.url, PATIENCE)
 
 
 async def _print_table(outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:

@@ -1,1 +1,1 @@
-"""A connection to a realizer over its protocol, for programs that use one."""
+"""Connections to a realizer over its protocol, and to a message broker, for programs that use them."""

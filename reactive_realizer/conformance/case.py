@@ -1,6 +1,6 @@
 """The cases of the suite: BML to send, the expectations that do not follow from it, and single checks."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib.resources import files
@@ -20,6 +20,7 @@ class Profile(StrEnum):
 
     BML = "bml"
     BMLA = "bmla"
+    EXTENSIONS = "extensions"
     PREDICTIONS = "predictions"
     STATUS = "status"
     STRICT = "strict"
@@ -29,9 +30,10 @@ PROFILES: Final = MappingProxyType(
     {
         Profile.BML: "what BML 1.0 requires",
         Profile.BMLA: "the attributes and behaviors of BMLA",
+        Profile.EXTENSIONS: "behaviors of the core extensions, of BMLT and of MURML",
         Profile.PREDICTIONS: "that points are reached at their predicted times",
         Profile.STATUS: "the states in which blocks end (`bmla:status`), also of blocks that never start",
-        Profile.STRICT: "the ids and types of warnings, and that waiting blocks start at once",
+        Profile.STRICT: "ids and types of warnings, that waiting blocks start at once, and what BML 1.0 leaves open",
     }
 )
 """The profiles, each with what it asserts."""
@@ -117,6 +119,7 @@ class ConformanceCase:
         warnings: all expected warnings.
         ends: the state in which a block ends, of those that do not end DONE.
         profile: to which the case belongs.
+        then: what follows when these blocks have ended; its feedback is examined alone, so ids may be used again.
     """
 
     name: str
@@ -125,6 +128,15 @@ class ConformanceCase:
     sends: tuple[Send, ...]
     warnings: tuple[Warned, ...]
     ends: dict[str, str]
+    then: "ConformanceCase | None" = None
+
+    @property
+    def parts(self) -> Iterator["ConformanceCase"]:
+        """The case itself, and what follows it, in order."""
+        part: ConformanceCase | None = self
+        while part is not None:
+            yield part
+            part = part.then
 
     @property
     def blocks(self) -> tuple[BehaviorBlock, ...]:
@@ -145,11 +157,17 @@ def read_suite() -> list[ConformanceCase]:
 def read_case(name: str, text: bytes) -> ConformanceCase:
     """Read a case from the content of its file."""
     root = etree.fromstring(text)
+    return _part(name, _attribute(root, "title"), Profile(root.get("profile", Profile.BML)), root)
+
+
+def _part(name: str, title: str, profile: Profile, root: etree._Element) -> ConformanceCase:
+    """A case, or what follows in it: the content of an element."""
     sends = tuple(map(_send, root.iterchildren("send")))
     warnings = tuple(map(_warned, root.iterchildren("warning")))
     ends = {_attribute(element, "block"): _attribute(element, "status") for element in root.iterchildren("end")}
-    profile = Profile(root.get("profile", Profile.BML))
-    return ConformanceCase(name, _attribute(root, "title"), profile, sends, warnings, ends)
+    following = root.find("then")
+    then = None if following is None else _part(name, title, profile, following)
+    return ConformanceCase(name, title, profile, sends, warnings, ends, then)
 
 
 def _attribute(element: etree._Element, name: str) -> str:

@@ -5,9 +5,10 @@ import json
 import shlex
 from abc import ABC, abstractmethod
 from asyncio.subprocess import PIPE, Process
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import count
-from typing import Any, Self
+from types import MappingProxyType
+from typing import Any, ClassVar, Self
 
 from lxml import etree
 
@@ -28,10 +29,13 @@ class Connection(ABC):
     Attributes:
         feedback: all feedback since the last `forget`.
         mistakes: the invalid messages since then.
+        unfit: why cases cannot be tried over such a connection, by their names.
 
     Raises:
         RealizerError: "not-reached" or "other-protocol"; also in `send` and `until`, if the connection is lost.
     """
+
+    unfit: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
     def __init__(self, patience: float) -> None:
         self.feedback = FeedbackList()

@@ -7,7 +7,7 @@ from itertools import count
 from typing import Final
 
 from reactive_realizer.bml.names import BML
-from reactive_realizer.conformance.case import ConformanceCase, Profile
+from reactive_realizer.conformance.case import Check, ConformanceCase, Profile
 from reactive_realizer.conformance.connection import Connection
 from reactive_realizer.conformance.derive import checks_of
 
@@ -27,7 +27,11 @@ _UNANSWERED: Final = "a message with a ref was not answered"
 
 
 class Verdict(StrEnum):
-    """The result of a case; UNSUPPORTED if the realizer warned that it does not support part of it."""
+    """The result of a case.
+
+    It is UNSUPPORTED if the realizer warned that it does not support part of it, or if it cannot be tried over the
+    connection.
+    """
 
     PASSED = "passed"
     FAILED = "failed"
@@ -81,17 +85,34 @@ class _Runner:
         self._stops = count(1)
 
     async def run(self, case: ConformanceCase) -> Outcome:
-        self._client.forget()
-        waited = [*await self._play(case), *await self.stop()]
-        feedback = self._client.feedback
-        checks = [check for check in checks_of(case) if check.profile in self._profiles]
-        expected = {(warning.id, warning.type) for warning in case.warnings}
-        unknown = [f"{id_}: {type_}" for id_, type_ in feedback.warnings if type_ in _UNSUPPORTED]
-        if unknown and not expected.intersection(feedback.warnings):
-            return Outcome(case, Verdict.UNSUPPORTED, 0, tuple(unknown))
-        failed = [problem for check in checks if (problem := check.problem(feedback, self._tolerance)) is not None]
-        problems = (*self._client.mistakes, *waited, *failed)
-        return Outcome(case, Verdict.FAILED if problems else Verdict.PASSED, len(checks), problems)
+        if (reason := self._client.unfit.get(case.name)) is not None:
+            return Outcome(case, Verdict.UNSUPPORTED, 0, (reason,))
+        checks, problems = 0, []
+        for part in case.parts:
+            self._client.forget()
+            waited = await self._play(part)
+            if part.then is None or waited:
+                waited += await self.stop()
+            unknown = self._unsupported(part)
+            if unknown:
+                return Outcome(case, Verdict.UNSUPPORTED, 0, unknown)
+            asserted = [check for check in checks_of(part) if check.profile in self._profiles]
+            checks += len(asserted)
+            problems += [*self._client.mistakes, *waited, *self._failed(asserted)]
+            if waited:
+                break
+        return Outcome(case, Verdict.FAILED if problems else Verdict.PASSED, checks, tuple(problems))
+
+    def _unsupported(self, case: ConformanceCase) -> tuple[str, ...]:
+        """What the realizer warned that it does not support, if the case does not expect that."""
+        warnings = self._client.feedback.warnings
+        if {(warning.id, warning.type) for warning in case.warnings}.intersection(warnings):
+            return ()
+        return tuple(f"{id_}: {type_}" for id_, type_ in warnings if type_ in _UNSUPPORTED)
+
+    def _failed(self, checks: Iterable[Check]) -> list[str]:
+        found = (check.problem(self._client.feedback, self._tolerance) for check in checks)
+        return [problem for problem in found if problem is not None]
 
     async def stop(self) -> list[str]:
         """Ends all blocks; returns the problems."""

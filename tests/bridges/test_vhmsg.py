@@ -1,19 +1,13 @@
 """The bridge to the Virtual Human Toolkit with a real broker and a real server."""
 
 import asyncio
-import threading
-from collections.abc import Iterator
 
 import pytest
-from coilmq.queue import QueueManager
-from coilmq.server.socket_server import ThreadedStompServer
-from coilmq.store.memory import MemoryQueue
-from coilmq.topic import TopicManager
 
 from reactive_realizer.__main__ import main
-from reactive_realizer.bridges.stomp_bus import Broker, StompBus, connected
-from reactive_realizer.bridges.vhmsg import SCOPE, run_bridge
-from reactive_realizer.bridges.vhmsg_messages import VhMessage
+from reactive_realizer.bridges.vhmsg import run_bridge
+from reactive_realizer.client.stomp_bus import Broker, StompBus, connected
+from reactive_realizer.client.vh_message import SCOPE, VhMessage
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.live_scene import LiveScene
 
@@ -26,17 +20,6 @@ SHORT = """<act><participant id="brad" role="actor"/><bml composition="REPLACE">
 </bml></act>"""
 
 
-@pytest.fixture
-def broker() -> Iterator[Broker]:
-    queues = QueueManager(store=MemoryQueue())
-    with ThreadedStompServer(("127.0.0.1", 0), queue_manager=queues, topic_manager=TopicManager()) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        yield Broker("127.0.0.1", server.server_address[1])
-        server.shutdown()
-        thread.join()
-
-
 class Toolkit:
     """Another component on the bus, and the clock of the realizer, which moves while a message is awaited."""
 
@@ -45,7 +28,8 @@ class Toolkit:
         self._ticks = live.ticker.ticks()
 
     def say(self, word: str, argument: str = "") -> None:
-        self._bus.send(VhMessage(word, argument).text, ELVISH_SCOPE=SCOPE, MESSAGE_PREFIX=word)
+        message = VhMessage(word, argument)
+        self._bus.send(message.text, **message.headers(SCOPE))
 
     async def hear(self, *words: str) -> str:
         """The next message with one of these first words."""

@@ -5,20 +5,21 @@ import logging
 import pytest
 
 from reactive_realizer.bridges.vhmsg_bridge import VhmsgBridge, ends
-from reactive_realizer.bridges.vhmsg_messages import VhMessage
+from reactive_realizer.bridges.vhmsg_feedback import FeedbackForm
+from reactive_realizer.client.vh_message import VhMessage
 
 FEEDBACK = (
     '<{} xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla" '
-    'xmlns:rr="urn:reactive-realizer:1" characterId="alice" id="{}" {}>{}</{}>'
+    'xmlns:rr="urn:reactive-realizer:1" characterId="alice" id="{}" globalTime="1" {}>{}</{}>'
 )
 
 
 class Toolkit:
     """A bridge, and what it has sent to the toolkit."""
 
-    def __init__(self) -> None:
+    def __init__(self, form: FeedbackForm = FeedbackForm.NONE) -> None:
         self.sent: list[str] = []
-        self.bridge = VhmsgBridge({"alice": "alice", "brad": "alice"}, self._send)
+        self.bridge = VhmsgBridge({"alice": "alice", "brad": "alice"}, self._send, form)
 
     def request(self, name: str, xml: str = "<bml/>", agent: str = "brad") -> dict[str, object] | None:
         return self.bridge.take(VhMessage("vrSpeak", f"{agent} user {name} {xml}"))
@@ -33,7 +34,7 @@ class Toolkit:
         self.bridge.report({"type": "error", "ref": block, "message": reason, "blocks": list(accepted)})
 
     def _send(self, message: VhMessage) -> None:
-        self.sent.append(" ".join(message))
+        self.sent.append(" ".join(message).strip())
 
     def _feedback(self, kind: str, id_: str, attributes: str, inside: str = "") -> None:
         self.bridge.report(
@@ -126,3 +127,35 @@ def test_it_answers_a_call_of_all_components(toolkit: Toolkit) -> None:
 def test_it_ends_when_it_or_every_component_is_asked_to() -> None:
     asked = [VhMessage("vrKillComponent", name) for name in ("all", "reactive-realizer", "nvb", "")]
     assert [ends(each) for each in asked] == [True, True, False, False]
+
+
+def perform(toolkit: Toolkit) -> list[str]:
+    """What is sent of a request with a gesture, and of a block of another client."""
+    toolkit.request("m1")
+    toolkit.progress("m1:start", "IN_EXEC")
+    toolkit.reach("m1:g:strokeStart")
+    toolkit.reach("other:g:strokeStart")
+    toolkit.progress("m1:end", "DONE")
+    return toolkit.sent
+
+
+def test_feedback_in_the_form_of_smartbody_has_its_names_and_agents() -> None:
+    assert perform(Toolkit(FeedbackForm.SMARTBODY)) == [
+        '<blockstart characterId="brad" id="m1" time="1"/>',
+        "vrAgentBML brad m1 start",
+        '<syncpointprogress characterId="brad" id="m1:g:stroke_start" time="1"/>',
+        '<blockend characterId="brad" id="m1" time="1"/>',
+        "vrAgentBML brad m1 end complete",
+    ]
+
+
+def test_feedback_in_the_form_of_bml_is_that_of_the_realizer() -> None:
+    sent = perform(Toolkit(FeedbackForm.BML))
+    assert [each.partition(" ")[0] for each in sent] == [
+        "<blockProgress",
+        "vrAgentBML",
+        "<syncPointProgress",
+        "<blockProgress",
+        "vrAgentBML",
+    ]
+    assert 'id="m1:g:strokeStart"' in sent[2]

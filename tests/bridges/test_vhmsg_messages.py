@@ -4,7 +4,8 @@ import pytest
 from lxml import etree
 
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bridges.vhmsg_messages import Act, VhMessage
+from reactive_realizer.bridges.vhmsg_messages import Act
+from reactive_realizer.client.vh_message import VhMessage
 from reactive_realizer.limits import Limits
 
 SPEECH = '<speech id="s"><text>Up &amp; down + 50%</text></speech>'

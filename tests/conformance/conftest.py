@@ -20,6 +20,12 @@ from reactive_realizer.server.security import Security
 from reactive_realizer.testing.pilot import open_pilot
 
 _SPEED = 5
+NOT_REALIZED = {
+    "face",
+    "face-facs",
+    "face-shift",
+}
+"""Cases of which this realizer, with its text voice, says that it does not support a part."""
 
 
 class QuickClock(SystemClock):

@@ -53,6 +53,12 @@ async def test_feedback_that_follows_the_script_has_no_problem() -> None:
     assert problems(case_of(SCRIPT), await played(SCRIPT)) == []
 
 
+def test_what_follows_in_a_case_is_a_part_of_its_own() -> None:
+    first, second = case_of(block("b", ""), f"<then><send>{block('b', '')}</send></then>").parts
+    assert [part.blocks[0].id for part in (first, second)] == ["b", "b"]
+    assert (first.title, second.title) == ("It is so", "It is so")
+
+
 async def test_a_wait_may_end_at_its_limit() -> None:
     wait, nod = '<wait id="w" end="c:n:start" max-wait="1"/>', '<head id="n" lexeme="NOD" start="3"/>'
     script = block("b", wait) + block("c", nod)

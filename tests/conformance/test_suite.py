@@ -17,15 +17,9 @@ from reactive_realizer.conformance.case import Profile, read_suite
 from reactive_realizer.conformance.connection import SocketConnection
 from reactive_realizer.conformance.suite import Outcome, Verdict, run_suite
 
-from .conftest import WrongRealizer, address_of, plain_realizer
+from .conftest import NOT_REALIZED, WrongRealizer, address_of, plain_realizer
 
 ADAPTER = Path(__file__).resolve().parents[2] / "examples" / "conformance_adapter.py"
-
-NOT_REALIZED = {
-    "face",
-    "face-facs",
-    "face-shift",
-}
 
 
 async def outcomes(url: str, *names: str, patience: float = suite.PATIENCE) -> list[Outcome]:
@@ -151,7 +145,7 @@ async def test_the_exit_status_is_2_if_the_program_says_nothing(
     assert "sent no message for 0.05 s" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("option", "said"), [("--tolerance=nan", "nan"), ("--profile=x", "'bml', 'bmla', 'pred")])
+@pytest.mark.parametrize(("option", "said"), [("--tolerance=nan", "nan"), ("--profile=x", "'bml', 'bmla', 'ext")])
 def test_options_without_a_meaning_are_refused(capsys: pytest.CaptureFixture[str], option: str, said: str) -> None:
     with pytest.raises(SystemExit):
         main(["conformance", "--program", "true", option])

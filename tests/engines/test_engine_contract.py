@@ -2,8 +2,8 @@
 
 from collections.abc import AsyncIterator
 from dataclasses import replace
-from pathlib import Path
 
+from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.engine.tts import Utterance
@@ -18,7 +18,7 @@ from reactive_realizer.engines.wait_engine import WaitEngine
 from reactive_realizer.testing.engine_contract import EngineContract
 from reactive_realizer.testing.engine_harness import minimal_context
 
-SOUNDS = Path(__file__).parents[1] / "data" / "sounds"
+SOUNDS = PACKAGE_ASSETS / "sounds"
 
 
 class SlowVoice(TextVoice):
