@@ -25,8 +25,8 @@ _HEEL_OFF = (0.08, 0.42)
 _HIGHEST_HEEL = 0.9
 """Pitch of a foot that is about to leave the ground, rad."""
 
-_STEEPEST, _HALVINGS = 1.25, 14
-"""Limit of that pitch for a leg that would be too short, rad, and how often the interval is halved to find it."""
+_STEEPEST = 1.25
+"""Limit of that pitch for a leg that would be too short, rad."""
 
 _EXTENDED = 0.985
 """Share of the reach of a leg to which it is extended in walking; only in the air it comes nearer to the whole."""
@@ -74,6 +74,21 @@ class FootShape(NamedTuple):
         x, y, z = add(pivot, rotate(turn, subtract((0.0, self.ankle, 0.0), pivot)))
         rotation = multiply(print_.turn, multiply(turn, self.rotation))
         return Transform(print_.to_world((x, y + lift, z)), rotation)
+
+    def rolled_to(self, point: Vec3, far: float) -> float:
+        """Return the pitch with which its ankle, rolled over its ball, is at a distance from a point, or nearest to it.
+
+        Args:
+            point: above its ball, in its frame, m.
+            far: the distance, m.
+        """
+        x, y, z = subtract(point, self.ball)
+        across, up, ahead = subtract((0.0, self.ankle, 0.0), self.ball)
+        # The square of the distance is that of both ways less twice their product, which a turn makes a cosine.
+        level, upright = y * up + z * ahead, z * up - y * ahead
+        product = 0.5 * (x * x + y * y + z * z + across * across + up * up + ahead * ahead - far * far) - x * across
+        most = math.hypot(level, upright)
+        return math.atan2(upright, level) - math.acos(max(-1.0, min(1.0, product / most)))
 
 
 class Swing(NamedTuple):
@@ -188,15 +203,8 @@ class WalkingFoot:
         longest = reach * (1.0 - (1.0 - _EXTENDED) * share(behind, 0.0, _HEEL_OFF[0]))
         if behind <= 0.0 or distance(ankle.position, hip) <= longest:
             return ankle
-        low, high = self.pitch, _STEEPEST
-        for _ in range(_HALVINGS):
-            self.pitch = 0.5 * (low + high)
-            ankle = self.shape.posed(self.print, self.pitch)
-            if distance(ankle.position, hip) > longest:
-                low = self.pitch
-            else:
-                high = self.pitch
-        return ankle
+        self.pitch = min(_STEEPEST, max(self.pitch, self.shape.rolled_to(self.print.to_own(hip), longest)))
+        return self.shape.posed(self.print, self.pitch)
 
     def _rolled(self, now: GlobalTime, place: Place, rolls: float) -> float:
         """Return the pitch of a standing foot: it rolls from its heel, and off over its ball as the hips leave it."""
