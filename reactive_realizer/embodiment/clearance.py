@@ -17,7 +17,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.flesh import Contacts, Flesh, Windows, flesh_of
 from reactive_realizer.embodiment.girth import FOREARM, Girth, girth_of
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.posed_arm import GROUPS, HAND, STAYING, ArmLinks, PosedArm, Shift
+from reactive_realizer.embodiment.posed_arm import ALL_GROUPS, GROUPS, HAND, STAYING, ArmLinks, PosedArm, Shift
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale
 
@@ -74,18 +74,19 @@ class Clearance:
             shares: "l" and "r" -> how much of its way out an arm goes, 0 to 1.
         """
         balls = [ball for links in self._arms for ball in links.balls(body)]
-        near: tuple[_Near, ...] = tuple({} for _ in self._arms)
+        near: tuple[_Near, ...] = tuple([] for _ in self._arms)
         for part, windows in zip(self._parts, self._windows.get(away) or self._watch(away), strict=True):
             part.find(body)
-            for number in part.near(balls, windows):
-                near[number // len(GROUPS)].setdefault(part, []).append(number % len(GROUPS))
+            if which := part.near(balls, windows):
+                part.pose(body)
+                for own in near:
+                    if groups := which & ALL_GROUPS:
+                        own.append((part, groups))
+                    which >>= len(GROUPS)
         turns: dict[str, Quat] = {}
-        posed: set[Flesh] = set()
         for side, links, parts in zip(SIDES, self._arms, near, strict=True):
-            if parts and shares[side] > 0.0:
-                look = _look(body, links, parts, away, posed)
-                if look.contacts:
-                    turns |= _turns(body, look, shares[side])
+            if parts and shares[side] > 0.0 and (look := _look(body, links, parts, away)) is not None:
+                turns |= _turns(body, look, shares[side])
         return body.turned(turns, self._moving) if turns else body
 
     def deepest(self, body: Body) -> float:
@@ -114,16 +115,16 @@ class Clearance:
         return self._windows[away]
 
 
-_Near = dict[Flesh, list[int]]
-"""Parts that are near to an arm -> the groups of its points to which they are."""
+_Near = list[tuple[Flesh, int]]
+"""Parts that are near to an arm, and the groups of its points to which they are: bit n for group n."""
 
 
 class _Look(NamedTuple):
-    """What is known of an arm in a pose.
+    """What is known of an arm that is near to flesh.
 
     Attributes:
         links: its joints.
-        points: that are kept clear, m; none if it is far away from flesh.
+        points: that are kept clear, m.
         radii: of these points, m.
         contacts: the parts that it is near to, and the points that are.
     """
@@ -134,29 +135,26 @@ class _Look(NamedTuple):
     contacts: Mapping[Flesh, Contacts]
 
 
-def _look(body: Body, links: ArmLinks, parts: Mapping[Flesh, Sequence[int]], away: float, posed: set[Flesh]) -> _Look:
-    """Return where an arm is in flesh, or near to it.
+def _look(body: Body, links: ArmLinks, parts: _Near, away: float) -> _Look | None:
+    """Return where an arm is in flesh, or near to it; None if it is not.
 
     Args:
-        body: in any pose; the axes of the parts are known.
+        body: in any pose; the parts have it.
         links: the arm.
-        parts: that are near to groups of its points, with the numbers of these groups.
+        parts: that may be near to it.
         away: distance from flesh that it keeps, m.
-        posed: parts that have this pose already; the others get it, and are added.
     """
     points = links.forearm_points(body)
-    if any(groups[-1] == HAND for groups in parts.values()):
-        points += links.hand_points(body)
     radii = [radius + away for radius in links.radii] if away else links.radii
     contacts: dict[Flesh, Contacts] = {}
-    for part, groups in parts.items():
-        if part not in posed:
-            part.pose(body)
-            posed.add(part)
-        which = range(links.groups[groups[0]].start, links.groups[groups[-1]].stop)
-        if found := part.contacts(points, radii, MARGIN, which):
+    for part, groups in parts:
+        if groups & HAND and len(points) == len(FOREARM):
+            points += links.hand_points(body)
+        if found := part.contacts(points, radii, MARGIN, links.spans[groups]):
             contacts[part] = found
-    if contacts and len(points) == len(FOREARM):
+    if not contacts:
+        return None
+    if len(points) == len(FOREARM):
         points += links.hand_points(body)
     return _Look(links, points, radii, contacts)
 

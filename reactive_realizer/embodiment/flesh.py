@@ -81,6 +81,8 @@ class Flesh(ABC):
         mirrored: bool = False,
     ) -> None:
         self._patches, self._blunt, self._mirrored = profile.patches(size, behind), blunt, mirrored
+        # Of all patches of a row: how far away from the axis its surface is, m, and how steep.
+        self._rows = [(max(p.farthest for p in line), max(p.steepest for p in line)) for line in self._patches]
         self._bottom, self._step, rows = profile.bottom, profile.step, len(profile.rows)
         self._top = self._bottom + self._step * (rows - 1)
         self._rest = size
@@ -127,26 +129,28 @@ class Flesh(ABC):
             distances.append(distance)
         return tuple(distances)
 
-    def near(self, places: Sequence[Vec3], windows: Windows) -> list[int]:
-        """Return the numbers of the things that may be near, once the axis is set (`find`).
+    def near(self, places: Sequence[Vec3], windows: Windows) -> int:
+        """Return which of the things may be near, once the axis is set (`find`): bit n for thing n.
 
         Args:
             places: their middles, m.
             windows: where they are near.
         """
-        found = []
+        found = 0
         (sx, sy, sz), (ux, uy, uz), room = self._start, self._along, self._room
         first, all_distances = windows
         bands, per_band = len(all_distances[0]), 1.0 / (self._size * self._step)
         offset = first + 0.5 - self._bottom / self._step
-        for index, (x, y, z) in enumerate(places):
+        bit = 1
+        for (x, y, z), distances in zip(places, all_distances, strict=True):
             x, y, z = x - sx, y - sy, z - sz
             high = x * ux + y * uy + z * uz
             band = high * per_band + offset
             if 0.0 <= band < bands:
-                far = all_distances[index][int(band)] + room
+                far = distances[int(band)] + room
                 if x * x + y * y + z * z - high * high < far * far:
-                    found.append(index)
+                    found |= bit
+            bit += bit
         return found
 
     @abstractmethod
@@ -171,7 +175,7 @@ class Flesh(ABC):
         # Written out: calls take longer than what they do.
         found: Contacts = {}
         (sx, sy, sz), (ux, uy, uz), (lx, ly, lz), (fx, fy, fz) = self._start, self._along, self._left, self._front
-        (bx, bz), twist, size, patches = self._bend, self._twist, self._size, self._patches
+        (bx, bz), twist, size, patches, rows = self._bend, self._twist, self._size, self._patches, self._rows
         behind = self._behind
         per_size, offset, last = 1.0 / size, 0.5 - self._bottom / self._step, len(self._patches) - 1
         per_row = per_size / self._step
@@ -187,13 +191,17 @@ class Flesh(ABC):
                 bent = share * (1.0 - share)
                 across, ahead = across - bent * bx, ahead - bent * bz
             place = high * per_row + offset
-            turn = (atan2(across, ahead) - share * twist) * PER_RADIAN + 0.5
             row = 0 if place < 0.0 else last if place > last else int(place)
+            farthest, steepest = rows[row]
+            around, off = radii[index] + within, across * across + ahead * ahead
+            far = farthest + steepest * around
+            if off >= far * far:
+                continue
+            turn = (atan2(across, ahead) - share * twist) * PER_RADIAN + 0.5
             column = floor(turn)
             patch = patches[row][column % ANGLES]
-            farthest, _, steepest, _ = patch
-            far = farthest + steepest * (radii[index] + within)
-            if across * across + ahead * ahead < far * far:
+            far = patch.farthest + patch.steepest * around
+            if off < far * far:
                 along = place - row
                 along = 0.0 if along < 0.0 else 1.0 if along > 1.0 else along
                 depth = self._depth(patch, (along, turn - column), (across, high, ahead), radii[index])

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
+from functools import lru_cache
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -93,9 +94,15 @@ def compose(skeleton: Skeleton, layers: Iterable[Layer]) -> ComposedBody:
     (`turned_further`), so that a head that is turned aside nods about its own axis.
     """
     lower, added, upper = _sorted(layers)
-    steady = over(Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY)), *lower)
+    steady = over(_default(skeleton), *lower)
     shown = turned_further(steady, *added)
     return ComposedBody(over(shown, *upper), over(steady, *upper))
+
+
+@lru_cache
+def _default(skeleton: Skeleton) -> Body:
+    """Return the body in the default pose, with a rotation for each joint."""
+    return Body(skeleton, dict.fromkeys(skeleton.joints, IDENTITY))
 
 
 def over(body: Body, *layers: Layer) -> Body:
@@ -193,5 +200,5 @@ def check_rotations(rotations: Mapping[str, Quat]) -> None:
         TypeError, ValueError: one does not have four numbers.
     """
     for joint, (w, x, y, z) in rotations.items():
-        if not abs(w * w + x * x + y * y + z * z - 1.0) < _NEARLY_ZERO:
+        if not -_NEARLY_ZERO < w * w + x * x + y * y + z * z - 1.0 < _NEARLY_ZERO:
             raise RealizerError(BadPose(what=joint, value=(w, x, y, z)))

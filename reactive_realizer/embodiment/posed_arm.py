@@ -37,7 +37,8 @@ _NEAR_ELBOW, _NEAR_WRIST = range(2), range(2, len(FOREARM))
 GROUPS = (0, 1, 2)
 """Numbers of groups of points: near the elbow, near the wrist, of the hand."""
 
-HAND = GROUPS[-1]
+ALL_GROUPS, HAND = (1 << len(GROUPS)) - 1, 1 << GROUPS[-1]
+"""Sets of groups: bit n for group n."""
 
 _STRAIGHT = 0.995
 _BENT = 0.002
@@ -78,6 +79,7 @@ class ArmLinks(NamedTuple):
         radii: of the points that are kept clear, first those of the forearm, m.
         shares: of the way from elbow to wrist at which these points are; those of the hand go with the wrist.
         groups: numbers of the points of each group.
+        spans: for each set of groups, the numbers of the points from the first to the last group.
         middles: of the groups of the forearm, as shares of its length.
         palm: middle of the group of the hand, in the axes of the wrist, m.
         reaches: furthest points of the groups from their middles, m.
@@ -93,6 +95,7 @@ class ArmLinks(NamedTuple):
     radii: tuple[float, ...]
     shares: tuple[float, ...]
     groups: tuple[range, ...]
+    spans: tuple[range, ...]
     middles: tuple[float, ...]
     palm: Vec3
     reaches: tuple[float, ...]
@@ -108,7 +111,8 @@ class ArmLinks(NamedTuple):
             *(girth.hand for _ in knuckles[1]),
             *(girth.finger for _, points in fingers for _ in points),
         )
-        spans = [(FOREARM[group[0]], FOREARM[group[-1]]) for group in (_NEAR_ELBOW, _NEAR_WRIST)]
+        groups = _NEAR_ELBOW, _NEAR_WRIST, range(len(FOREARM), len(radii))
+        ends = [(FOREARM[group[0]], FOREARM[group[-1]]) for group in (_NEAR_ELBOW, _NEAR_WRIST)]
         return cls(
             skeleton.parent(shoulder) or shoulder,
             shoulder,
@@ -119,10 +123,11 @@ class ArmLinks(NamedTuple):
             (knuckles, *fingers),
             radii,
             (*FOREARM, *(1.0 for _ in radii[len(FOREARM) :])),
-            (_NEAR_ELBOW, _NEAR_WRIST, range(len(FOREARM), len(radii))),
-            tuple(0.5 * (first + last) for first, last in spans),
+            groups,
+            tuple(_span(groups, number) for number in range(ALL_GROUPS + 1)),
+            tuple(0.5 * (first + last) for first, last in ends),
             palm,
-            (*(0.5 * (last - first) * length(lower) for first, last in spans), reach),
+            (*(0.5 * (last - first) * length(lower) for first, last in ends), reach),
         )
 
     def balls(self, body: Body) -> tuple[Vec3, Vec3, Vec3]:
@@ -261,6 +266,12 @@ class PosedArm(NamedTuple):
         wrist = add(middle, rotate(turn, self.links.lower))
         points = (*_along(middle, wrist), *(add(wrist, rotate(turn, point)) for point in self.hand))
         return self._replace(shoulder=shoulder, elbow=elbow, wrist=wrist, points=points)
+
+
+def _span(groups: Sequence[range], which: int) -> range:
+    """Return the numbers from the first to the last of some groups of points: bit n for group n."""
+    chosen = [group for number, group in enumerate(groups) if which >> number & 1]
+    return range(chosen[0].start, chosen[-1].stop) if chosen else range(0)
 
 
 def _along(elbow: Vec3, wrist: Vec3) -> list[Vec3]:

@@ -44,6 +44,7 @@ _BEHIND = 1e-3
 """A wrist nearer than this to where it is wanted follows it, m."""
 
 _ALL_SPEEDS = frozenset((_LIMB, *_SPEEDS.values()))
+_SLOWEST = min(_ALL_SPEEDS)
 
 
 def fastest(joint: str) -> float:
@@ -65,13 +66,14 @@ def slowed(shown: JointRotations, wanted: JointRotations, duration: float) -> di
 def _held_back(shown: JointRotations, wanted: JointRotations, duration: float) -> dict[str, Quat]:
     """Return the rotations of the joints that would turn faster than their limits."""
     within = _within(duration)
+    slowest = within[_SLOWEST]
     return {
         joint: _toward(start, goal, fastest(joint) * duration)
         for joint, goal in wanted.items()
-        # Most joints stay as they are, as the same tuple.
+        # Most joints stay as they are, as the same tuple, or turn by less than any limit.
         if (start := shown.get(joint, IDENTITY)) is not goal
-        and abs(start[0] * goal[0] + start[1] * goal[1] + start[2] * goal[2] + start[3] * goal[3])
-        < within[_SPEEDS.get(joint, _LIMB)]
+        and (same := abs(start[0] * goal[0] + start[1] * goal[1] + start[2] * goal[2] + start[3] * goal[3])) < slowest
+        and same < within[_SPEEDS.get(joint, _LIMB)]
     }
 
 

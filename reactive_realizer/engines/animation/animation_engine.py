@@ -347,7 +347,9 @@ class AnimationEngine(DefaultEngine):
         follow: tuple[Layer, ...] = self._isolated(
             "trunk following", lambda: self._followed(tick.time, playing, layers, standing), ()
         )
-        lean: tuple[Layer, ...] = self._isolated("leaning", lambda: self._leant(tick.time, (*layers, *follow)), ())
+        lean: tuple[Layer, ...] = self._isolated(
+            "leaning", lambda: self._leant(tick.time, playing, (*layers, *follow)), ()
+        )
         posed = (*layers, *follow, *lean)
         feet: tuple[Layer, ...] = self._isolated(
             "foot planting", lambda: self._foot_planting.layers(posed, tick.time, self._walk.feet), ()
@@ -374,8 +376,10 @@ class AnimationEngine(DefaultEngine):
         steps = 0.0 if self._balances() else standing
         return self._trunk_following.layers(now, arms, self._humanoid.body, directed=directed, standing=steps)
 
-    def _leant(self, now: GlobalTime, layers: Sequence[Layer]) -> tuple[Layer, ...]:
+    def _leant(self, now: GlobalTime, playing: Sequence[AnimationUnit], layers: Sequence[Layer]) -> tuple[Layer, ...]:
         """Return the layer in which the trunk leans for hands whose arms do not reach their goals."""
+        if self._leaning.rests and not any(unit.motion.hands for unit in playing):
+            return ()
         uppermost = {
             side: unit
             for unit in self.player.stacked(AnimationUnit)
@@ -472,12 +476,14 @@ class AnimationEngine(DefaultEngine):
 
     def eyes(self, tick: Tick) -> Eyes:
         """Pose the eyes for all gazes, from the head as shown; the lids follow."""
-        gazes, aside = list(self._gazes()), self._aside()
+        playing = self._playing()
+        gazes, aside = list(self._gazes(playing)), _aside(playing)
         return lambda body: self._look(tick.time, gazes, aside, body)
 
     def _look(self, now: GlobalTime, gazes: Sequence[GazeGoal], aside: Quat, body: Body) -> EyePose:
-        resting: Mapping[str, Quat] = self._idle_part(lambda idle: idle.eyes(now), {})
-        camera = self._world.position(VIEWER) if self._idle else None
+        directed = any(gaze.eyes >= 1.0 for gaze in gazes)
+        resting: Mapping[str, Quat] = {} if directed else self._idle_part(lambda idle: idle.eyes(now), {})
+        camera = None if directed or self._idle is None else self._world.position(VIEWER)
         viewer = None if camera is None else self._humanoid.to_own_frame(camera)
         turns = self._isolated(
             "gaze", lambda: self._eye_controller.eyes(now, gazes, body, resting, viewer, aside), resting
@@ -501,19 +507,12 @@ class AnimationEngine(DefaultEngine):
             units = [unit for unit, controller in controlling.items() if ROOT in controller.joints]
             yield from (ReportFall(unit, self._humanoid.time) for unit in units[-1:])
 
-    def _gazes(self) -> Iterator[GazeGoal]:
+    def _gazes(self, playing: Iterable[AnimationUnit]) -> Iterator[GazeGoal]:
         """Yield the active gaze goals: persistent ones, then playing ones, the latest last."""
         lasting = (motion.gaze(1.0) for motion in self._persistent.motions)
-        playing = [
-            (height(unit), gaze) for unit in self._playing() if (gaze := unit.motion.gaze(unit.phase)) is not None
-        ]
+        gazing = [(height(unit), gaze) for unit in playing if (gaze := unit.motion.gaze(unit.phase)) is not None]
         yield from (gaze for gaze in lasting if gaze is not None)
-        yield from (gaze for _, gaze in sorted(playing, key=itemgetter(0)))
-
-    def _aside(self) -> Quat:
-        """Return the turn of the eyes from where they look, in the axes of the head: that of all glances."""
-        glances = (unit.motion.glance(unit.phase) for unit in self._playing())
-        return reduce(multiply, (glance for glance in glances if glance is not None), IDENTITY)
+        yield from (gaze for _, gaze in sorted(gazing, key=itemgetter(0)))
 
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
         self._note_gaze_change(unit, time)
@@ -600,6 +599,12 @@ class AnimationEngine(DefaultEngine):
         if self._base_layer is None or self._base_layer.rotations is not self._rest.pose:
             self._base_layer = Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)
         return self._base_layer
+
+
+def _aside(playing: Iterable[AnimationUnit]) -> Quat:
+    """Return the turn of the eyes from where they look, in the axes of the head: that of all glances."""
+    glances = (unit.motion.glance(unit.phase) for unit in playing)
+    return reduce(multiply, (glance for glance in glances if glance is not None), IDENTITY)
 
 
 def _pointing_arms(playing: Iterable[AnimationUnit]) -> frozenset[str]:
