@@ -46,6 +46,18 @@ async def test_head_elbows_fingers_and_eyes_move_a_little() -> None:
     assert len(saccades) > 40
 
 
+async def test_an_elbow_is_still_while_a_motion_moves_its_arm_and_loose_again_afterward() -> None:
+    async with open_pilot(SceneOptions(voice="text")) as pilot:
+        pilot.watch()
+        pilot.block("b", '<gesture id="g" lexeme="OFFER" mode="RIGHT_HAND" stroke="2" strokeEnd="3" relax="21"/>')
+        await pilot.advance(60)
+        bodies = pilot.bodies("alice")
+    held, after = bodies[160:1040], bodies[1200:]
+    assert turned(held, "r_elbow") < 0.01
+    assert turned(held, "l_elbow") > 0.3
+    assert turned(after, "r_elbow") > 0.3
+
+
 def weights(pilot: RealizerPilot, morph: str) -> NDArray[np.float64]:
     """Of a morph target in each frame, (F,)."""
     morphs = pilot.realizer.characters["alice"].humanoid.avatar.morphs

@@ -72,7 +72,13 @@ from reactive_realizer.engines.animation.leaning import Leaning
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
-from reactive_realizer.engines.animation.motion_unit import AMOUNT_RANGE, EXPRESSIVITY_RANGES, GazeGoal, Resource
+from reactive_realizer.engines.animation.motion_unit import (
+    AMOUNT_RANGE,
+    EXPRESSIVITY_RANGES,
+    GazeGoal,
+    MotionUnit,
+    Resource,
+)
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
 from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionMotionUnit, LocomotionUnit
 from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
@@ -339,7 +345,7 @@ class AnimationEngine(DefaultEngine):
         layers = (
             self._base(),
             *walking,
-            *self._breath(tick.time, standing),
+            *self._breath(tick.time, standing, playing),
             *self._persisting(tick.time),
             *self._waiting_arms.layers(tick.time),
             *self._stacked(tick.time),
@@ -391,11 +397,12 @@ class AnimationEngine(DefaultEngine):
             return ()
         return self._leaning.layers(now, goals, compose(self._humanoid.avatar.skeleton, layers).shown)
 
-    def _breath(self, now: GlobalTime, standing: float) -> tuple[Layer, ...]:
+    def _breath(self, now: GlobalTime, standing: float, playing: Iterable[AnimationUnit]) -> tuple[Layer, ...]:
         for unit in self.player.playing:
             if isinstance(unit, IdleChangeUnit | WeightShiftUnit):
                 unit.follow(now)
-        return self._idle_part(lambda idle: (checked(idle.layer(now, standing)),), ())
+        busy = _moved_arms((*(unit.motion for unit in playing), *self._persistent.motions))
+        return self._idle_part(lambda idle: (checked(idle.layer(now, standing, busy)),), ())
 
     def _idle_part(self, show: Callable[[Idle], T], fallback: T) -> T:
         """Return a part of idle animation, or a fallback if the figure has none."""
@@ -611,6 +618,12 @@ def _pointing_arms(playing: Iterable[AnimationUnit]) -> frozenset[str]:
     """Return the sides of the arms that point, or are about to."""
     pointing = [unit for unit in playing if isinstance(unit.behavior, Pointing) and unit.phase < unit.keys["relax"]]
     return frozenset(side for unit in pointing for side in SIDES if f"{side}_shoulder" in unit.motion.joints)
+
+
+def _moved_arms(motions: Iterable[MotionUnit]) -> frozenset[str]:
+    """Return the sides of the arms that motions above postures move."""
+    moving = [motion for motion in motions if motion.kind in _CLAIMING]
+    return frozenset(side for motion in moving for side in SIDES if f"{side}_elbow" in motion.joints)
 
 
 def _precedes(unit: AnimationUnit, block: BlockKey, behavior: Behavior) -> bool:

@@ -1,15 +1,16 @@
 """Idle animation: breathing, sway, weight shifts, loose arms, blinks and glances. Without it a figure is frozen."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from random import Random
 
 from reactive_realizer.bml.idle_change import IdleParameter
-from reactive_realizer.embodiment.joints import EYES
+from reactive_realizer.embodiment.joints import EYES, SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, from_euler, multiply
 from reactive_realizer.embodiment.vector import scale
 from reactive_realizer.engines.animation.blinks import USUAL_RATE, Blinks
+from reactive_realizer.engines.animation.easing import smoothstep
 from reactive_realizer.engines.animation.idle_course import IdleCourse
 from reactive_realizer.engines.animation.idle_movements import (
     USUAL_BREATHING,
@@ -28,9 +29,12 @@ _WAVES = ((0.43, 1.9, 0.0), (0.31, 2.3, 1.0), (0.23, 1.3, 2.0))
 _QUICKER = 0.25
 """Share of the faster wave in a sway."""
 
+_STILLING = 0.3
+"""Time in which an elbow comes to rest when a motion begins to move its arm, and is loose again afterward, s."""
+
 
 class Idle:
-    """Idle motion as functions of time. Figures with different seeds move differently.
+    """Idle motion as functions of time, but elbows come to rest in arms that move. Other seeds move differently.
 
     Attributes:
         courses: of its parameters, relative to their usual values.
@@ -59,6 +63,9 @@ class Idle:
         self._leant: tuple[float, Leaning] | None = None
         self._glances = Glances(Random(random.getrandbits(64)))
         self._looseness = Looseness(Random(random.getrandbits(64)))
+        self._time = 0.0
+        # How loose each elbow is, 0 to 1, in even time.
+        self._loose = dict.fromkeys(SIDES, 1.0)
         self._fixation = Fixation(Random(random.getrandbits(64)))
 
     def relative(self, parameter: IdleParameter, value: float) -> float:
@@ -76,13 +83,17 @@ class Idle:
         for course in self.courses.values():
             course.reset(time)
 
-    def layer(self, time: float, standing: float) -> Layer:
+    def layer(self, time: float, standing: float, busy: Collection[str] = ()) -> Layer:
         """Return the additive layer at a time.
 
         Args:
             time: s.
             standing: degree to which the figure may shift its weight, 0 to 1.
+            busy: sides ("l", "r") of the arms that motions move: their hands should be where these want them.
         """
+        step, self._time = max(0.0, time - self._time) / _STILLING, time
+        for side, loose in self._loose.items():
+            self._loose[side] = max(0.0, loose - step) if side in busy else min(1.0, loose + step)
         depth = self._degree * self.courses[IdleParameter.WEIGHT_SHIFT_DEPTH].value(time)
         turns, root = self._leaning(depth * self.shifts.at(time) * standing)
         rotations = {**turns, **self.rotations(time)}
@@ -110,7 +121,7 @@ class Idle:
             "r_sternoclavicular": from_axis_angle((0.0, 0.0, 1.0), -0.022 * air),
             "vc4": from_euler(0.012 * air - 0.006 * forth + nod, aside, tilt - 0.006 * side),
             "skullbase": from_euler(0.006 * forth + nod, 0.010 * turn + aside, 0.004 * side + tilt),
-            **self._looseness.elbows(time, degree),
+            **self._looseness.elbows(time, {side: degree * smoothstep(each) for side, each in self._loose.items()}),
             **self._looseness.fingers(time, degree),
         }
 

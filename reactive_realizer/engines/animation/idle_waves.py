@@ -1,5 +1,6 @@
 """Idle movements that never stop: the head wanders, elbows and fingers are loose, and eyes are never still."""
 
+from collections.abc import Mapping
 from math import cos, radians, sin
 from random import Random
 from typing import NamedTuple
@@ -44,7 +45,7 @@ _FINGERS = {"index": 0.012, "middle": 0.03, "ring": 0.036, "pinky": 0.036}
 """How far fingers bend and stretch, rad: pointing needs the index finger."""
 
 _ELBOW = 0.012
-"""How far elbows bend and stretch, rad: a pointing finger stays on its line."""
+"""How far elbows bend and stretch, rad."""
 
 _CURLING = {"l": -1.0, "r": 1.0}
 """Sign of the turn about z by which fingers bend."""
@@ -61,16 +62,18 @@ class Looseness:
             for side in SIDES
             for finger, size in _FINGERS.items()
         ]
-        self._elbows = [(f"{side}_elbow", _Wave.drawn(random)) for side in SIDES]
+        self._elbows = {side: _Wave.drawn(random) for side in SIDES}
 
     def head(self, time: float) -> Vec3:
         """Return the turns of the head at a time, s: nod, turn and tilt, rad."""
         (nod, turn, tilt), (nods, turns, tilts) = _HEAD, self._head
         return nod * nods.at(time), turn * turns.at(time), tilt * tilts.at(time)
 
-    def elbows(self, time: float, degree: float) -> dict[str, Quat]:
-        """Return the turns of elbows at a time, s, scaled by a degree."""
-        halves = ((joint, 0.5 * degree * _ELBOW * wave.at(time)) for joint, wave in self._elbows)
+    def elbows(self, time: float, degrees: Mapping[str, float]) -> dict[str, Quat]:
+        """Return the turns of elbows at a time, s, each scaled by the degree of its side ("l" or "r")."""
+        halves = (
+            (f"{side}_elbow", 0.5 * degrees[side] * _ELBOW * wave.at(time)) for side, wave in self._elbows.items()
+        )
         return {joint: (cos(half), sin(half), 0.0, 0.0) for joint, half in halves}
 
     def fingers(self, time: float, degree: float) -> dict[str, Quat]:
