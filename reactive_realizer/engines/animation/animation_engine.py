@@ -35,7 +35,7 @@ from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
 from reactive_realizer.embodiment.inertialization import CARRIED
-from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES
+from reactive_realizer.embodiment.joints import EYES, HEAD, ROOT, SIDES
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose, over
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply
@@ -488,7 +488,7 @@ class AnimationEngine(DefaultEngine):
         return lambda body: self._look(tick.time, gazes, aside, body)
 
     def _look(self, now: GlobalTime, gazes: Sequence[GazeGoal], aside: Quat, body: Body) -> EyePose:
-        directed = any(gaze.eyes >= 1.0 for gaze in gazes)
+        directed = any(gaze.eyes >= 1.0 and all(eye in gaze.directed for eye in EYES) for gaze in gazes)
         resting: Mapping[str, Quat] = {} if directed else self._idle_part(lambda idle: idle.eyes(now), {})
         camera = None if directed or self._idle is None else self._world.position(VIEWER)
         viewer = None if camera is None else self._humanoid.to_own_frame(camera)
