@@ -21,6 +21,10 @@ class Limits:
     """Behaviors of these blocks; a client has at most half of what others leave."""
     sync_points_per_block: int = 10_000
     """Sync points of a block, which fails if it has more; a nod has one for each repetition."""
+    goals_per_behavior: int = 1_000
+    """Goals of key poses, or values of key frames, of a behavior. Poses and frames after them are left out."""
+    movements_per_gesture: int = 30
+    """Movements of a gesture of MURML, one after another. Those after them are left out."""
     planning_per_tick: int = 700
     """Work of planning in a tick, counted in sync points that are made, placed or put on pegs. The rest waits."""
     procedures: int = 1_000

@@ -49,7 +49,7 @@ class Behavior:
         instead_of: in a description, the sync points of the core behavior, which it must have too; otherwise empty.
         extensions: attributes of other namespaces, (namespace, local name) to value.
         parameters: its ``bmlt:parameter`` elements (thesis C.1.1), name to value.
-        source: its element as XML; empty if it was read from another language.
+        source: its element as XML; empty if it was read from another language, unless it is long.
     """
 
     NAMESPACE: ClassVar[str] = BML

@@ -77,6 +77,17 @@ class TooManyBehaviors(ParsingFault):
     limit: int
 
 
+class BeyondLimit(ParsingFault):
+    """A part of a motion that is more than is read of it; the parts before it play."""
+
+    code = "beyond-limit"
+    template = "this {element} and all after it are left out: at most {limit} {things} are played ({key})"
+    element: str
+    limit: int
+    things: str
+    key: str
+
+
 class NotBml(ParsingFault):
     """A root element that is neither a block nor a procedure."""
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import DuplicateId, HeldCurve, MissingElement, PoseTooEarly
+from reactive_realizer.bml.faults import BeyondLimit, DuplicateId, HeldCurve, MissingElement, PoseTooEarly
 from reactive_realizer.bml.key_poses import GOALS, KeyPose, KeyPoseGoal, KeyPoses
 from reactive_realizer.bml.trees import Tree, children_of, name_of
 from reactive_realizer.errors import Fault, RealizerError
@@ -20,8 +20,13 @@ def read_key_poses(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[
         RealizerError: there are none, or the first one that cannot be read.
     """
     poses: list[KeyPose] = []
-    before = len(notes)
+    before, goals, most = len(notes), 0, source.limits.goals_per_behavior
     for child in children_of(tree, KeyPose.ELEMENT):
+        goals += len(children_of(child, *_GOALS))
+        if goals > most:
+            beyond = BeyondLimit(element=KeyPose.ELEMENT, limit=most, things="goals", key="goals_per_behavior")
+            notes.append(source.located(child, beyond))
+            break
         try:
             poses.append(_key_pose(child, poses, source, notes))
         except RealizerError as refused:

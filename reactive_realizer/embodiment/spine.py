@@ -10,6 +10,8 @@ _REGIONS: Final = (
 )
 """The vertebrae from the lowest up, lumbar, thoracic and cervical (ISO/IEC 19774)."""
 
+_VERTEBRAE: Final = frozenset(joint for region in _REGIONS for joint in region)
+
 
 def folded_spine(joints: Iterable[str], known: Collection[str]) -> Mapping[str, tuple[str, ...]]:
     """The vertebrae among some joints, by the one of a figure that turns in their place.
@@ -26,6 +28,8 @@ def folded_spine(joints: Iterable[str], known: Collection[str]) -> Mapping[str, 
     """
     turned = set(joints)
     folded: dict[str, tuple[str, ...]] = {}
+    if _VERTEBRAE.isdisjoint(turned):  # as in most gestures
+        return folded
     for region in _REGIONS:
         present = [number for number, joint in enumerate(region) if joint in known]
         for number, joint in enumerate(region):

@@ -1,9 +1,10 @@
 """Rehearsal of a block: which of its behaviors can be played, and with which sync points."""
 
+import asyncio
+from collections import deque
 from collections.abc import AsyncGenerator, Callable, Collection, Mapping, Sequence
 from contextlib import AbstractAsyncContextManager
 from dataclasses import dataclass
-from itertools import islice
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import StreamedSpeech
@@ -34,7 +35,10 @@ class Rehearsal:
 
 
 _AT_ONCE = 20
-"""Behaviors that are checked in one turn."""
+"""Behaviors that are checked in one turn at most."""
+
+_TURN = 0.002
+"""Duration of a turn, s, after which no more behaviors are checked in it: a tick waits for it."""
 
 
 Turns = AbstractAsyncContextManager[object]
@@ -43,12 +47,16 @@ Turns = AbstractAsyncContextManager[object]
 
 async def rehearse(block: BehaviorBlock | DefineProc, routing: EngineRouting, turns: Turns) -> Rehearsal:
     """Asks the engines about the behaviors of a block, some in each turn, without slow work and without effects."""
-    rehearsing = _Rehearsing(block, routing)
-    routed = iter(rehearsing.routed.values())
-    while some := list(islice(routed, _AT_ONCE)):
+    rehearsing, loop = _Rehearsing(block, routing), asyncio.get_running_loop()
+    left = deque(rehearsing.routed.values())
+    while left:
         async with turns:
-            for each in some:
+            end = loop.time() + _TURN
+            for _ in range(min(_AT_ONCE, len(left))):
+                each = left.popleft()
                 rehearsing.note(each, each.check)
+                if loop.time() >= end:
+                    break
     return rehearsing.result()
 
 

@@ -1,5 +1,7 @@
 """EMBRScript: what its scripts mean in BML, and what is wrong with them."""
 
+from dataclasses import replace
+
 import pytest
 
 from reactive_realizer.bml.behavior import Behavior
@@ -13,6 +15,7 @@ from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.key_poses import KeyPoses, LookAtGoal, OrientationGoal, PoseGoal, PositionGoal, SwivelGoal
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, Composition, FacePart, WarpKind
 from reactive_realizer.bml.weight_shift import WeightShift
+from reactive_realizer.bml.writer import written
 from reactive_realizer.limits import Limits
 
 
@@ -399,13 +402,43 @@ def test_a_long_comment_takes_no_time_to_read() -> None:
     assert key_poses(GOOD + "#" * 900_000).poses
 
 
-def test_ten_thousand_key_poses_are_one_behavior() -> None:
+def test_of_ten_thousand_key_poses_the_first_ones_play_and_the_first_one_too_many_is_named() -> None:
     text = script(*(f"TIME_POINT:+{20 * number}\n{looking()}" for number in range(1, 10_001)))
     (found,) = read(text, Limits(bml_bytes=10_000_000), "d")
     assert found.block is not None
     (head,) = found.block.behaviors
     assert isinstance(head, KeyPoses)
-    assert len(head.poses) == 10_000
+    assert len(head.poses) == 1000
+    line = text.splitlines().index("TIME_POINT:+20020")
+    told = "this K_POSE and all after it are left out: at most 1000 goals are played (goals_per_behavior)"
+    assert [(each.fault.line, each.fault.sentence) for each in found.problems] == [(line, told)]
+
+
+def test_each_body_group_and_each_weight_has_the_limit_of_goals_for_itself() -> None:
+    smile = "BEGIN MORPH_TARGET\nMORPH_KEY:ExpSmileClosed\nMORPH_VALUE:1\nEND"
+    both = f"{position()}\nBEGIN SWIVEL_CONSTRAINT\nBODY_GROUP:rarm\nSWIVEL_ANGLE:3\nEND\n{looking()}\n{smile}"
+    text = script(*(f"TIME_POINT:+{200 * number}\n{both}" for number in range(1, 6)))
+    (found,) = read(text, Limits(goals_per_behavior=4), "d")
+    assert found.block is not None
+    arm, head, face = found.block.behaviors
+    assert isinstance(arm, KeyPoses)
+    assert isinstance(head, KeyPoses)
+    assert isinstance(face, FaceKeyframe)
+    assert [len(each.poses) for each in (arm, head)] == [2, 4]
+    assert face.interpolator is not None
+    assert [line.split()[0] for line in face.interpolator.strip().splitlines()[1:-1]] == [
+        "0",
+        "0.2",
+        "0.4",
+        "0.6",
+        "0.8",
+    ]
+    assert len(found.problems) == 3
+
+
+def test_key_poses_are_written_once_for_all_feedback() -> None:
+    (head,) = block(script(f"TIME_POINT:+500\n{looking()}")).behaviors
+    assert head.source == written(replace(head, source=""))
 
 
 def test_a_script_over_the_limits_is_refused() -> None:

@@ -7,7 +7,7 @@ import pytest
 from reactive_realizer.bml.block import BehaviorBlock, Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.key_poses import KeyPoses, LookAtGoal, OrientationGoal, PositionGoal
-from reactive_realizer.bml.names import BML
+from reactive_realizer.bml.names import BML, OWN
 from reactive_realizer.bml.time_warps import warped
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, WarpKind
 from reactive_realizer.limits import Limits
@@ -70,6 +70,19 @@ def test_a_pose_that_cannot_be_read_is_left_out(read: Callable[[str], Parsed], p
     assert len(behavior.poses) == 1
     assert any(problem in each.fault.sentence for each in parsed.problems)
     assert all(each.id == "b:k" for each in parsed.problems)
+
+
+def test_poses_with_goals_beyond_the_limit_are_left_out_and_the_first_one_is_named() -> None:
+    look, turn = '<lookAt target="0 0 1"/>', '<orientation axis="CROWN" direction="0 1 0"/>'
+    poses = "".join(f'\n<keyPose time="{number}">{look}{turn}</keyPose>' for number in range(1, 5))
+    text = f'<bml xmlns="{BML}" id="b"><rr:keyPoses xmlns:rr="{OWN}" id="k" group="HEAD">{poses}</rr:keyPoses></bml>'
+    (parsed,) = parse(text, Limits(goals_per_behavior=5))
+    assert parsed.block is not None
+    (found,) = parsed.block.behaviors
+    assert isinstance(found, KeyPoses)
+    assert [pose.time for pose in found.poses] == [1.0, 2.0]
+    told = "this keyPose and all after it are left out: at most 5 goals are played (goals_per_behavior)"
+    assert [(each.fault.line, each.fault.sentence) for each in parsed.problems] == [(4, told)]
 
 
 def test_a_pose_that_is_held_has_no_use_for_the_parameters_of_a_curve(read: Callable[[str], Parsed]) -> None:

@@ -25,9 +25,11 @@ from reactive_realizer.limits import Limits
 FRAMES = "<dynamic><keyframing {}><phase>{}</phase></keyframing></dynamic>"
 
 
-def read(inside: str, element: str = "murmlgesture") -> tuple[MurmlGesture | MurmlFace | None, tuple[Problem, ...]]:
+def read(
+    inside: str, element: str = "murmlgesture", limits: Limits | None = None
+) -> tuple[MurmlGesture | MurmlFace | None, tuple[Problem, ...]]:
     lines = f'<bml xmlns="{BML}" id="b">\n<{element} xmlns="{MURML}" id="x"><murml-description>\n{inside}\n'
-    (found,) = parse(f"{lines}</murml-description></{element}></bml>", Limits())
+    (found,) = parse(f"{lines}</murml-description></{element}></bml>", limits or Limits())
     behaviors = found.block.behaviors if found.block else ()
     (behavior,) = behaviors or (None,)
     assert behavior is None or isinstance(behavior, MurmlGesture | MurmlFace)
@@ -150,6 +152,33 @@ def test_the_times_of_a_phase_count_from_the_end_of_the_one_before() -> None:
     found = keyframing("", f"{frame.format(0.5)}{frame.format(1)}</phase><phase>{frame.format(0.25)}")
     assert [each.time for each in found.frames] == [0.5, 1.0, 1.25]
     assert found.frames[0].values == {"vc4": (1.0, 2.0, 3.0), "l_elbow": (7.0,)}
+
+
+def test_values_of_frames_beyond_the_limit_are_left_out_from_a_frame_on_and_named() -> None:
+    frames = "".join(
+        f'\n<frame ftime="{number}"><posture>Humanoid (vc4 1 2) (l_elbow 1 7)</posture></frame>'
+        for number in range(1, 6)
+    )
+    for element in ("murmlgesture", "murmlface"):
+        behavior, problems = read(FRAMES.format("", frames), element, Limits(goals_per_behavior=5))
+        assert behavior is not None
+        found = behavior.description.keyframing if isinstance(behavior, MurmlGesture) else behavior.keyframing
+        assert found is not None
+        assert [frame.time for frame in found.frames] == [1.0, 2.0]
+        told = "this frame and all after it are left out: at most 5 values of frames are played (goals_per_behavior)"
+        assert [(each.fault.line, each.fault.sentence) for each in problems] == [(6, told)]
+
+
+def test_movements_beyond_the_limit_are_left_out_and_the_first_one_is_named() -> None:
+    inside = "\n".join(static(f"0 0 0.{number}") for number in range(1, 8))
+    palm = static("PalmU", "PalmOrientation")
+    both = f"<parallel><sequence>{inside}</sequence>{palm}</parallel>"
+    behavior, problems = read(both, limits=Limits(movements_per_gesture=4))
+    assert isinstance(behavior, MurmlGesture)
+    places = {track.slot: [mark.position for mark in track.marks] for track in behavior.description.tracks}
+    assert places == {Slot.HAND_LOCATION: [0.0, 1.0, 2.0, 3.0], Slot.PALM_ORIENTATION: [0.0]}
+    told = "this value and all after it are left out: at most 4 movements are played (movements_per_gesture)"
+    assert [(each.fault.line, each.fault.sentence) for each in problems] == [(7, told)]
 
 
 def test_a_way_to_a_frame_eases_about_its_turning_point() -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
-from reactive_realizer.bml.names import BML, BMLT
+from reactive_realizer.bml.names import BML, BMLT, OWN
 from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.realizer.session import replay
 from reactive_realizer.scheduler.block_planner import BlockPlanner, Planned
@@ -68,6 +68,20 @@ async def test_a_block_whose_pegs_are_more_than_the_work_of_a_tick_starts_in_the
     *_, planned, started = [each for each in pilot.feedback.of("predictionFeedback") if each.id == "big"]
     assert round(started.time - planned.time, 6) == 0.01
     assert pilot.feedback.time("big:start") == started.time
+
+
+async def test_many_key_poses_are_as_much_work_as_many_behaviors(pilot: RealizerPilot) -> None:
+    pose = '<rr:keyPose time="{}"><rr:lookAt target="0 0.6 1"/></rr:keyPose>'
+    poses = "".join(pose.format(number / 10) for number in range(1, 501))
+    inside = "".join(
+        f'<rr:keyPoses xmlns:rr="{OWN}" id="k{number}" group="HEAD">{poses}</rr:keyPoses>' for number in range(8)
+    )
+    pilot.block("long", inside)
+    await pilot.advance(0.03)
+    assert not pilot.feedback.reached("long:start")
+    await pilot.advance(0.2)
+    assert pilot.feedback.reached("long:start")
+    assert pilot.feedback.warnings == []
 
 
 async def test_work_beyond_the_budget_of_a_tick_is_taken_from_the_next_ones(

@@ -5,8 +5,10 @@ from collections.abc import Awaitable, Callable
 
 import pytest
 
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc
 from reactive_realizer.bml.document import parse
+from reactive_realizer.engines.animation.animation_engine import AnimationEngine
 from reactive_realizer.engines.wait_engine import WaitEngine
 from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.engine_routing import EngineRouting
@@ -108,3 +110,27 @@ async def test_other_tasks_run_while_a_big_block_is_rehearsed() -> None:
     found = await rehearsed(rehearse_it, inside)
     assert len(found.points) == 100
     assert turns == ["other", "other", "other", "rehearsed"]
+
+
+async def test_a_behavior_that_takes_long_to_check_has_a_turn_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    taken: list[int] = []
+
+    class Counted:
+        async def __aenter__(self) -> None:
+            taken.append(0)
+
+        async def __aexit__(self, *failure: object) -> None:
+            pass
+
+    def check(engine: AnimationEngine, behavior: Behavior) -> tuple[str, ...]:
+        taken[-1] += 1
+        loop = asyncio.get_running_loop()
+        end = loop.time() + 0.004
+        while loop.time() < end:
+            pass
+        return ("start", "end")
+
+    monkeypatch.setattr(AnimationEngine, "check", check)
+    nods = "".join(f'<head id="h{i}" lexeme="NOD"/>' for i in range(4))
+    await rehearsed(lambda block, routing: rehearse(block, routing, Counted()), nods)
+    assert taken == [1, 1, 1, 1]

@@ -15,8 +15,10 @@ from reactive_realizer.bml.embr.sequence import SequenceReader
 from reactive_realizer.bml.embr.syntax import NUCLEUS, RESET, Node, read_nodes, text_of
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.faults import MoreProblems, TooManyBehaviors, TooManyBytes
+from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.names import BLOCK, Location
 from reactive_realizer.bml.vocabulary import Composition
+from reactive_realizer.bml.writer import written
 from reactive_realizer.errors import Fault
 from reactive_realizer.limits import Limits
 
@@ -110,7 +112,11 @@ def _parsed(section: _Section, name: str, first: _Section, limits: Limits) -> Pa
     if len(section.behaviors) > most:
         fault = TooManyBehaviors(size=len(section.behaviors), limit=most)
         return _refused(fault.located(section.location.line, section.location.column))
-    behaviors = tuple(replace(each, order=order) for order, each in enumerate(section.behaviors))
+    # Feedback writes a behavior in a tick, so key poses are written here, where there is time for it.
+    behaviors = tuple(
+        replace(each, order=order, source=written(each) if isinstance(each, KeyPoses) else "")
+        for order, each in enumerate(section.behaviors)
+    )
     block = BehaviorBlock(
         id=name,
         character=None if cast else section.character or None,

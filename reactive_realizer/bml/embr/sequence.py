@@ -13,11 +13,12 @@ from reactive_realizer.bml.embr.autonomous import Autonomous, read_autonomous
 from reactive_realizer.bml.embr.faults import BadValue, UnknownName
 from reactive_realizer.bml.embr.goals import GOALS, read_goal
 from reactive_realizer.bml.embr.nucleus import Nuclei
-from reactive_realizer.bml.embr.syntax import AUTONOMOUS, CLIP, MORPH, Node
+from reactive_realizer.bml.embr.syntax import AUTONOMOUS, CLIP, MORPH, POSE, Node
 from reactive_realizer.bml.embr.timeline import Timed, sequence_start, timed
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.embr.words import MORPHS, SHADERS, Expression
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
+from reactive_realizer.bml.faults import BeyondLimit
 from reactive_realizer.bml.key_poses import KeyPose, KeyPoseGoal, KeyPoses
 from reactive_realizer.bml.names import BMLT, OWN, Location, is_sync_id
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -79,6 +80,7 @@ class SequenceReader:
         self._weights: dict[tuple[str, str], list[_Step]] = {}
         self._autonomous: list[Autonomous] = []
         self._clips: list[Timed] = []
+        self._goals: dict[object, int] = {}
         for each in nuclei.expressed(timed(node, self._start, notes)):
             if each.node.name == CLIP:
                 self._clips.append(each)
@@ -137,6 +139,8 @@ class SequenceReader:
             except RealizerError as refused:
                 self._notes.faults.append(refused.fault)
         for group, read in groups.items():
+            if self._is_beyond(group, len(read), at.node.location):
+                continue
             nodes = [node for node, _ in read]
             steps = self._groups.setdefault(group, [])
             goals = tuple(goal for _, goal in read)
@@ -151,9 +155,19 @@ class SequenceReader:
             place = node.values["SHADER_KEY"].location
             fault = UnknownName(kind="SHADER_KEY", name=quoted(key), known=tuple(SHADERS))
             raise RealizerError(fault.located(place.line, place.column))
+        if self._is_beyond((kind, key), 1, at.node.location):
+            return
         steps = self._weights.setdefault((kind, key), [])
         warp = self._warp_of(node, at.node)
         steps.append(_Step(at, value, (), self._feedback([node], steps), warp, node.location))
+
+    def _is_beyond(self, part: object, goals: int, place: Location) -> bool:
+        """Whether a pose has goals beyond the limit of a body group or a weight; the first such pose is named."""
+        before, most = self._goals.get(part, 0), self._notes.most_goals
+        self._goals[part] = before + goals
+        if before <= most < self._goals[part]:
+            self._notes.add(BeyondLimit(element=POSE, limit=most, things="goals", key="goals_per_behavior"), place)
+        return self._goals[part] > most
 
     def _feedback(self, nodes: list[Node], steps: list[_Step]) -> str | None:
         """The id of the sync point of some constraints on the same joints at the same time."""

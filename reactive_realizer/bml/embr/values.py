@@ -21,10 +21,12 @@ class Notes:
 
     Attributes:
         faults: so far.
+        most_goals: limit of the goals of a behavior.
     """
 
     def __init__(self, limits: Limits) -> None:
         self.faults: list[Fault] = []
+        self.most_goals = limits.goals_per_behavior
         self._longest = limits.time_seconds
         self._left_out: set[str] = set()
 

@@ -31,7 +31,7 @@ def read_murml(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str,
     if not inside:
         missing = MissingElement(element=name_of(tree), children=f"<{DESCRIPTION}>")
         raise RealizerError(source.located(tree, missing))
-    reader = MurmlReader(source.location, _SCOPES.get(_mode_around(tree), Scope.RIGHT))
+    reader = MurmlReader(source.location, _SCOPES.get(_mode_around(tree), Scope.RIGHT), source.limits)
     description = reader.read(inside[0])
     notes += reader.notes
     content = source.xml(inside[0])

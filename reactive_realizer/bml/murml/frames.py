@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Final, Protocol, TypeVar
 
 from reactive_realizer.bml.attribute_types import Boolean, Float
-from reactive_realizer.bml.faults import BadAttribute, MissingAttribute, UnknownElement
+from reactive_realizer.bml.faults import BadAttribute, BeyondLimit, MissingAttribute, UnknownElement
 from reactive_realizer.bml.murml.description import Frame, Keyframing
 from reactive_realizer.bml.murml.faults import BadPosture, FrameTooEarly, MurmlNotRealized, NothingToPlay
 from reactive_realizer.bml.names import Location
@@ -31,18 +31,19 @@ class _Type(Protocol[T_co]):
     def read(self, text: str, limits: Limits) -> T_co: ...
 
 
-def read_keyframing(tree: Tree, locate: Callable[[Tree], Location], notes: list[Fault]) -> Keyframing:
+def read_keyframing(tree: Tree, locate: Callable[[Tree], Location], notes: list[Fault], limits: Limits) -> Keyframing:
     """The key frames of an element; the times of each phase count from the end of the one before.
 
     Args:
         tree: of the `keyframing`.
         locate: returns the place of an element.
         notes: receives the faults of frames and attributes that are left out.
+        limits: on the number of values and on times.
 
     Raises:
         RealizerError: it has no frame that can be read.
     """
-    reader = _FrameReader(locate, notes)
+    reader = _FrameReader(locate, notes, limits)
     frames = reader.frames(tree)
     if not frames:
         raise RealizerError(notes[0] if len(notes) == 1 else reader.at(tree, NothingToPlay(element=name_of(tree))))
@@ -60,22 +61,33 @@ def read_keyframing(tree: Tree, locate: Callable[[Tree], Location], notes: list[
 
 
 class _FrameReader:
-    def __init__(self, locate: Callable[[Tree], Location], notes: list[Fault]) -> None:
+    def __init__(self, locate: Callable[[Tree], Location], notes: list[Fault], limits: Limits) -> None:
         self._locate = locate
         self._notes = notes
+        self._limits = limits
 
     def frames(self, tree: Tree) -> list[Frame]:
         """The frames of all phases, in the order of time; those that cannot be read are left out with a note."""
         frames: list[Frame] = []
-        begin = 0.0
+        begin, left = 0.0, self._limits.goals_per_behavior
         for phase in self._children(tree, "phase"):
             for child in self._children(phase, "frame"):
                 try:
-                    frames.append(self._frame(child, begin, frames))
+                    frame = self._frame(child, begin, frames)
                 except RealizerError as refused:
                     self._notes.append(refused.fault)
+                    continue
+                left -= len(frame.values)
+                if left < 0:
+                    self._notes.append(self.at(child, self._beyond()))
+                    return frames
+                frames.append(frame)
             begin = frames[-1].time if frames else 0.0
         return frames
+
+    def _beyond(self) -> Fault:
+        most = self._limits.goals_per_behavior
+        return BeyondLimit(element="frame", limit=most, things="values of frames", key="goals_per_behavior")
 
     def _frame(self, tree: Tree, begin: float, before: list[Frame]) -> Frame:
         text = tree.get("ftime")
@@ -116,7 +128,7 @@ class _FrameReader:
 
     def _read(self, tree: Tree, name: str, text: str, kind: _Type[T]) -> T:
         try:
-            return kind.read(text, _LIMITS)
+            return kind.read(text, self._limits)
         except RealizerError as refused:
             reason = refused.fault.sentence
             bad = BadAttribute(element=name_of(tree), attribute=name, value=quoted(text), reason=reason)

@@ -1,11 +1,11 @@
 """Reads murml-descriptions: movements of hands one after another or together, mirrored ones, and key frames."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final, TypeVar
 
-from reactive_realizer.bml.faults import UnknownElement
+from reactive_realizer.bml.faults import BeyondLimit, UnknownElement
 from reactive_realizer.bml.murml.description import (
     STRAIGHT,
     Bend,
@@ -29,6 +29,7 @@ from reactive_realizer.bml.murml.symbols import SYMBOLS, direction_of, number_of
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError, quoted
+from reactive_realizer.limits import Limits
 
 T = TypeVar("T")
 
@@ -97,16 +98,18 @@ class MurmlReader:
         notes: faults of what is left out, with their places.
     """
 
-    def __init__(self, locate: Callable[[Tree], Location], scope: Scope) -> None:
+    def __init__(self, locate: Callable[[Tree], Location], scope: Scope, limits: Limits) -> None:
         """Prepare to read.
 
         Args:
             locate: returns the place of an element.
             scope: the arm of movements that name none.
+            limits: on the numbers of movements and of values of frames.
         """
         self.notes: list[Fault] = []
         self._locate = locate
         self._scope = scope
+        self._limits = limits
         self._left_out: set[str] = set()
 
     def read(self, tree: Tree) -> MurmlDescription:
@@ -118,13 +121,29 @@ class MurmlReader:
         self._scope = self._scope_of(tree, self._scope)
         for dynamic in self._children(tree, _MOVEMENTS):
             for keyframing in dynamic.iterchildren(f"{{*}}{_KEYFRAMING}"):
-                return MurmlDescription(keyframing=read_keyframing(keyframing, self._locate, self.notes))
-        tracks = _merged(self._parallel(tree).tracks)
+                return MurmlDescription(keyframing=read_keyframing(keyframing, self._locate, self.notes, self._limits))
+        tracks = self._limited(_merged(self._parallel(tree).tracks))
         if tracks:
             return MurmlDescription(tracks=tracks)
         raise RealizerError(
             self.notes[0] if len(self.notes) == 1 else self._at(tree, NothingToPlay(element=name_of(tree)))
         )
+
+    def _limited(self, tracks: tuple[Track, ...]) -> tuple[Track, ...]:
+        """Tracks without the movements beyond the limit, with a note."""
+        most = self._limits.movements_per_gesture
+        positions = sorted({mark.position for track in tracks for mark in track.marks})
+        if len(positions) <= most:
+            return tracks
+        beyond = [mark for track in tracks for mark in track.marks if mark.position >= positions[most]]
+        place = min(beyond, key=lambda mark: mark.position).location
+        fault = BeyondLimit(element="value", limit=most, things="movements", key="movements_per_gesture")
+        self.notes.append(fault.located(place.line, place.column))
+        kept = (
+            replace(track, marks=tuple(mark for mark in track.marks if mark.position < positions[most]))
+            for track in tracks
+        )
+        return tuple(track for track in kept if track.marks)
 
     # --- structure
 
@@ -159,12 +178,14 @@ class MurmlReader:
     def _sequence(self, tree: Tree, scope: Scope | None) -> _Part:
         """Its parts one after another, with a movement from each to the next unless that goes on where it ends."""
         tracks: list[Track] = []
+        ends: dict[tuple[Slot, Scope], SlotValue] = {}
         length = 0.0
         for child in self._children(tree, _MOVEMENTS):
             part = self._part(child, scope)
             if not part.tracks:
                 continue
-            goes_on = bool(tracks) and _goes_on(tracks, part.tracks)
+            goes_on = bool(tracks) and _goes_on(ends, part.tracks)
+            ends |= {(track.slot, track.scope): track.marks[-1].value for track in part.tracks}
             begin = length if goes_on or not tracks else length + 1.0
             placed = part.placed(begin, 1.0)
             if goes_on:
@@ -360,9 +381,8 @@ class MurmlReader:
         return fault.located(place.line, place.column)
 
 
-def _goes_on(before: Iterable[Track], after: Iterable[Track]) -> bool:
-    """Whether every track begins with the value with which one of the same slot ended."""
-    ends = {(track.slot, track.scope): track.marks[-1].value for track in before}
+def _goes_on(ends: Mapping[tuple[Slot, Scope], SlotValue], after: Iterable[Track]) -> bool:
+    """Whether every track begins with the value with which the last one of the same slot ended."""
     return all(ends.get((track.slot, track.scope)) == track.marks[0].value for track in after)
 
 

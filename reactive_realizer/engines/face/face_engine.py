@@ -48,6 +48,10 @@ _MOUTH_FADE = 0.12
 """Duration of the fade of the mouth when a word is cut off, s."""
 
 
+_SHORT = 10_000
+"""Size of the keys inside of an animation up to which they are read at once: that takes some milliseconds."""
+
+
 class FaceEngine(DefaultEngine):
     """Plays expressions and mixes them with the resting face and the lip sync of the character's speech."""
 
@@ -84,26 +88,26 @@ class FaceEngine(DefaultEngine):
         return bound or super().supports(behavior)
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
-        """The points of a face; None for an animation whose file is yet to be read.
+        """The points of a face; None for an animation that is yet to be read.
 
         Raises:
             RealizerError: the binding has no face for it that can be made.
         """
         if isinstance(behavior, FaceKeyframe):
             path = animation_path(behavior, self._asset)
-            return tuple(self._animation(behavior).points) if path is None else None
+            return tuple(self._animation(behavior).points) if path is None and not _is_long(behavior) else None
         if isinstance(behavior, MurmlFace):
             return tuple(murml_face(behavior.keyframing, self._library.shapes).points)
         timing = self._shape(behavior).timing
         return SHIFT_TIMING.points if isinstance(behavior, FaceShift) else timing.points
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
-        """Read the file of an animation in another thread.
+        """Read an animation in another thread if it is in a file, or long.
 
         Raises:
             RealizerError: "no-asset" or "no-face-animation"; the awaitable raises "bad-asset".
         """
-        if not isinstance(behavior, FaceKeyframe) or behavior.interpolator is not None:
+        if not isinstance(behavior, FaceKeyframe) or (behavior.interpolator is not None and not _is_long(behavior)):
             return None
         path = animation_path(behavior, self._asset)
         return asyncio.to_thread(read_face_animation, behavior, path, self._library.shapes)
@@ -192,3 +196,8 @@ class FaceEngine(DefaultEngine):
 
     def _rest(self, shift: FaceShiftUnit) -> None:
         self._resting = between(self._resting, shift.weights, shift.share)
+
+
+def _is_long(behavior: FaceKeyframe) -> bool:
+    """Whether the keys inside of an animation take long to read."""
+    return len(behavior.interpolator or "") > _SHORT

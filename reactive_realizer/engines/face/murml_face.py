@@ -35,15 +35,15 @@ def murml_face(keyframing: Keyframing, shapes: FaceShapes) -> FaceAnimation:
     morphs, notes = _known(keyframing.frames, shapes)
     first = keyframing.frames[0]
     times, rows = [0.0], [np.zeros(len(morphs))]
+    shares = np.arange(1, _STEPS + 1) / _STEPS
+    progress = np.array([keyframing.progress(share) for share in shares.tolist()])[:, np.newaxis]
     if first.time == 0.0 or not keyframing.from_current:
         rows = [_row(first, morphs, rows[0])]
     for frame in keyframing.frames:
         if frame.time > 0.0:
             begin, before, goal = times[-1], rows[-1], _row(frame, morphs, rows[-1])
-            for step in range(1, _STEPS + 1):
-                share = step / _STEPS
-                times.append(begin + share * (frame.time - begin))
-                rows.append(before + keyframing.progress(share) * (goal - before))
+            times += (begin + shares * (frame.time - begin)).tolist()
+            rows += list(before + progress * (goal - before))
     if len(times) == 1:
         times, rows = [0.0, _SHORTEST], [rows[0], rows[0]]
     points = {"start": 0.0, "attackPeak": first.time, "relax": times[-1], "end": times[-1]}

@@ -19,6 +19,9 @@ from reactive_realizer.engines.animation.gaze.eyes import EyeSockets, direction_
 from reactive_realizer.engines.animation.key_poses.direction import FAR
 from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, ordered
 
+_WORK: Final = 16
+"""Work of making it, beside that for each key pose, as the limit `planning_per_tick` counts."""
+
 _SHORTEST: Final = 0.001
 """Duration of a motion whose only pose is reached at once, s."""
 
@@ -98,6 +101,7 @@ class EyeKeysMotionUnit(MotionUnit):
             rest: the body without it, from which the durations of saccades are estimated.
         """
         self.parameters = {}
+        self.planning_work = _WORK + len(keys)
         self.directed = directed
         self.pelvis = rest.transform(ROOT).position
         self._keys = keys

@@ -37,6 +37,9 @@ _LOWER = frozenset({*HEAD, *TRUNK})
 _STRETCHED = 0.5
 """Distance from its place at which a hand is reported, as a share of the arm: poses are written for other figures."""
 
+_WORK = 16
+"""Work of making it, beside that for each key pose, as the limit `planning_per_tick` counts."""
+
 _SHORTEST = 0.001
 """Duration of a motion whose only pose is reached at once, s."""
 
@@ -114,6 +117,7 @@ class KeyPosesMotionUnit(MotionUnit):
         named = {sync: min(time, self._relaxes) / self.preferred_duration for sync, time in points.items()}
         self.key_positions = ordered({**named, "relax": self._relaxes / self.preferred_duration})
         self._name = name
+        self.planning_work = _WORK + len(keys)
 
     def start(self, body: Body) -> None:
         """Start from the current body."""

@@ -23,9 +23,9 @@ from reactive_realizer.bml.murml.description import (
 )
 from reactive_realizer.bml.vocabulary import BodyAxis, BodyGroup, Mode
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, multiply
+from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.embodiment.spine import folded_spine
-from reactive_realizer.embodiment.vector import FORWARD, UP, ZERO, Vec3, add, scale, unit
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, unit
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.faults import NoGoals, NoJoints
 from reactive_realizer.engines.animation.key_poses.arm_pose import hand_axes
@@ -50,10 +50,12 @@ from reactive_realizer.errors import Fault, RealizerError
 _KEPT = 0.4
 """Duration of a stroke in which the hands only keep a pose, s."""
 
+_WORK = 30
+"""Work of finding the duration of a movement, as the limit `planning_per_tick` counts."""
+
 _SIDES = {Scope.LEFT: "l", Scope.RIGHT: "r"}
 _HANDS = {Scope.LEFT: BodyGroup.LEFT_HAND, Scope.RIGHT: BodyGroup.RIGHT_HAND}
 _AXES = {Slot.EXT_FINGER_ORIENTATION: BodyAxis.FINGERS, Slot.PALM_ORIENTATION: BodyAxis.PALM}
-_LEFTWARD: Vec3 = (1.0, 0.0, 0.0)
 
 
 class MurmlMotionUnit(KeyPoseGesture):
@@ -170,7 +172,9 @@ class _Stroke:
             for number, position in enumerate(positions)
         ]
         named = {mark.id: times[positions.index(mark.position)] for mark in self._marks if mark.id}
-        return MurmlMotionUnit(name, keys, rest, named, ways[-1])
+        motion = MurmlMotionUnit(name, keys, rest, named, ways[-1])
+        motion.planning_work += _WORK * len(keys)
+        return motion
 
     def _at(self, position: float) -> JointPose:
         return SeveralPoses(tuple(hand.at(position) for hand in self.hands))
@@ -233,5 +237,4 @@ def _turn(values: Sequence[float]) -> Quat:
     As in AsapRealizer. The axes are those of the joint's parent; one number is a roll.
     """
     roll, pitch, yaw = (math.radians(angle) for angle in (*values, 0.0, 0.0)[:3])
-    turns = (from_axis_angle(UP, yaw), from_axis_angle(_LEFTWARD, pitch), from_axis_angle(FORWARD, roll))
-    return reduce(multiply, turns)
+    return from_euler(pitch, yaw, roll)

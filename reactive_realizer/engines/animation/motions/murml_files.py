@@ -13,6 +13,7 @@ from reactive_realizer.bml.murml.description import MurmlDescription, Scope
 from reactive_realizer.bml.murml.reader import MurmlReader
 from reactive_realizer.bml.names import MURML, Location
 from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.limits import Limits
 
 
 class MurmlAsset(NamedTuple):
@@ -62,7 +63,7 @@ def read_murml_text(text: str, name: str, scope: Scope) -> MurmlAsset:
 
 
 def _read(element: XmlElement, file: str, scope: Scope) -> MurmlAsset:
-    reader = MurmlReader(lambda tree: Location(cast("int", tree.sourceline), 1), scope)
+    reader = MurmlReader(lambda tree: Location(cast("int", tree.sourceline), 1), scope, Limits())
     try:
         description = reader.read(element)
     except RealizerError as refused:

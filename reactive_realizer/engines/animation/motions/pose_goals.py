@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Final
 
@@ -126,9 +126,8 @@ class PoseGoals:
                     raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(_ARMS)))
                 self._check_joint(goal.joint)
             case OrientationGoal():
-                axes = self._axes()
-                if goal.axis not in axes:
-                    known = tuple(axes) or ("the axes of an arm, a head, a trunk, shoulders or eyes",)
+                if goal.axis not in self._axes:
+                    known = tuple(self._axes) or ("the axes of an arm, a head, a trunk, shoulders or eyes",)
                     raise RealizerError(NotOfGroup(goal=f"{kind} of {goal.axis}", group=self._group, known=known))
                 if goal.joint is not None and goal.joint not in (directed := self._directed()):
                     fault = NotOfGroup(goal=f"{kind} of {goal.joint}", group=self._group, known=directed)
@@ -136,7 +135,9 @@ class PoseGoals:
                 if length(goal.direction) < _SHORTEST:
                     raise RealizerError(NoDirection())
 
+    @cached_property
     def _axes(self) -> Mapping[BodyAxis, Vec3]:
+        """The axes of the group that may have directions."""
         if self._side is not None:
             return hand_axes(self._side, self._skeleton)
         if self._group is BodyGroup.SHOULDERS:
@@ -163,7 +164,7 @@ class PoseGoals:
 
     def _arm(self, goals: Iterable[KeyPoseGoal]) -> ArmGoals:
         """Return the goals of an arm; without a place, the hand keeps the last one."""
-        side, axes = self._side or "r", self._axes()
+        side = self._side or "r"
         directions: list[Direction] = []
         swivel: float | None = None
         for goal in goals:
@@ -171,7 +172,7 @@ class PoseGoals:
                 case PositionGoal():
                     self._place, self._tip = goal.target, self._tip_of(goal, side)
                 case OrientationGoal():
-                    directions.append(Direction(axes[goal.axis], unit(goal.direction)))
+                    directions.append(Direction(self._axes[goal.axis], unit(goal.direction)))
                 case SwivelGoal():
                     swivel = math.radians(goal.angle)
                 case LookAtGoal() | PoseGoal():
