@@ -79,6 +79,8 @@ class BlockTransitions:
             listener(block)
         self._blocks.end(block, time)
         for unit in block.units:
+            if unit.live and not unit.begun:
+                unit.drop(time)  # its sound may have been announced
             self._routing.unassign(unit)
         with self._board.graph.transaction(f"after {block.key.block}"):
             block.leave()

@@ -3,6 +3,7 @@
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.embodiment.audio import AudioStart, AudioStop
 from reactive_realizer.testing.assertions import assert_ended, assert_linked, assert_not_played, assert_time
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
@@ -127,6 +128,21 @@ async def test_a_required_late_tie_fails_its_block_unless_it_ties_a_start(pilot:
     assert_not_played(pilot.feedback, "b:m")
     assert_time(pilot.feedback, "c:n:start", 2.0)
     assert_ended(pilot.feedback, "c")
+
+
+async def test_the_announced_speech_of_a_block_that_fails_at_its_start_is_stopped(pilot: RealizerPilot) -> None:
+    pilot.predict("t", "hit", 2.0)
+    pilot.predict("t", "go", 4.0)
+    pilot.block("b", f"<required>{nod('n', end=GO)}</required>{WELL.format('')}", start=HIT)
+    await pilot.advance(1)
+    (start,) = pilot.sounds
+    assert isinstance(start, AudioStart)
+    assert start.start == 2.0
+    pilot.predict("t", "go", 1.5)
+    await pilot.advance(3)
+    assert pilot.feedback.status("b") == "FAILED"
+    (stop,) = (change for change in pilot.sounds if isinstance(change, AudioStop))
+    assert (stop.id, stop.time) == (start.clip.id, 2.0)
 
 
 async def test_the_start_of_a_block_may_be_later_than_a_time_that_it_is_tied_to(pilot: RealizerPilot) -> None:
