@@ -77,6 +77,15 @@ class TooManyBehaviors(ParsingFault):
     limit: int
 
 
+class GivenTwice(ParsingFault):
+    """Something that a script or a description gives more than once where it counts once."""
+
+    code = "given-twice"
+    template = "{what} is given twice; {counting} counts"
+    what: str
+    counting: str
+
+
 class BeyondLimit(ParsingFault):
     """A part of a motion that is more than is read of it; the parts before it play."""
 

@@ -458,6 +458,41 @@ async def test_goals_that_cannot_be_met_are_named_with_their_lines_and_the_other
         assert distance(from_pelvis(at(pilot, 0.8), "r_wrist"), HERE) < 0.001
 
 
+@pytest.mark.parametrize(
+    ("group", "goals", "line", "why"),
+    [
+        ("RIGHT_ARM", (place(THERE), place(HERE)), 1, "position has no effect: a later one of this key pose counts"),
+        ("RIGHT_ARM", ('<rr:swivel angle="9"/>', place(HERE), '<rr:swivel angle="0"/>'), 1, "swivel has no effect"),
+        (
+            "RIGHT_ARM",
+            (place(HERE), *(orientation(axis, (0, 0, 1)) for axis in ("PALM", "FINGERS", "THUMB"))),
+            4,
+            "orientation has no effect: two others of this key pose come before it",
+        ),
+        (
+            "HEAD",
+            (orientation("FACE", (1, 0, 1)), '<rr:lookAt target="0 0.6 1"/>'),
+            1,
+            "orientation has no effect: the face looks at a place",
+        ),
+        ("EYES", ('<rr:lookAt target="0 0.6 1"/>', orientation("SIGHT", (0, 0, 1))), 1, "lookAt has no effect"),
+        ("SHOULDERS", (orientation("SHOULDER", (1, 0, 0)), orientation("SHOULDER", (1, 0, 0.1))), 1, "no effect"),
+    ],
+)
+async def test_goals_without_effect_beside_others_are_named(
+    group: str, goals: tuple[str, ...], line: int, why: str
+) -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", group, pose(0.6, "\n".join(goals), 0.4))))
+        await pilot.advance(1)
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert f"line {line}," in warning.text
+        assert why in warning.text
+        if group == "RIGHT_ARM":
+            assert distance(from_pelvis(at(pilot, 0.8), "r_wrist"), HERE) < 0.001
+
+
 async def test_a_hand_that_cannot_reach_its_place_goes_as_near_as_it_can_and_says_so() -> None:
     async with open_pilot() as pilot:
         pilot.watch()

@@ -67,6 +67,22 @@ def test_each_body_group_has_the_poses_that_have_its_constraints() -> None:
     assert {each.group: len(each.poses) for each in groups} == {BodyGroup.RIGHT_ARM: 1, BodyGroup.LEFT_ARM: 2}
 
 
+def test_labels_that_several_poses_have_are_named() -> None:
+    poses = (
+        ("start", 100, 0, RIGHT.format(-0.3)),
+        ("start", 200, 0, RIGHT.format(-0.2)),
+        ("ready", 700, 100, RIGHT.format(0.1)),
+        ("ready", 1000, 100, RIGHT.format(0.2)),
+        ("end", 2000, 0, RIGHT.format(-0.3)),
+    )
+    lexeme = read_lexeme(script(*poses))
+    assert [(note.line, note.sentence) for note in lexeme.notes] == [
+        (11, "SYNC:start is given twice; the first one counts"),
+        (29, "SYNC:ready is given twice; this one counts"),
+    ]
+    assert lexeme.points["ready"] == 0.9
+
+
 def test_an_unknown_label_and_a_face_are_named_with_their_lines_and_the_rest_is_read() -> None:
     smile = "BEGIN MORPH_TARGET\nMORPH_KEY:ExpSmileClosed\nMORPH_VALUE:1\nEND"
     lexeme = read_lexeme(script(("raedy", 500, 0, f"{RIGHT.format(0.1)}\n{smile}")))

@@ -355,6 +355,22 @@ def test_what_an_autonomous_behavior_does_not_have_is_named() -> None:
     ]
 
 
+def test_a_parameter_or_a_nucleus_that_is_given_twice_is_named_and_the_last_one_counts() -> None:
+    nucleus = "BEGIN NUCLEUS\nNUCLEUS_ID:1\nPOWER:{}\nEND\n"
+    pose = f"TIME_POINT:+500\nHOLD:100\nHOLD:300\n{position(more='TARGET:0;0;0')}"
+    text = nucleus.format(0.5) + nucleus.format(0.2) + script(pose)
+    assert problems(text) == [
+        (6, "the NUCLEUS 1 is given twice; this one counts"),
+        (14, "HOLD is given twice; this one counts"),
+        (19, "TARGET is given twice; this one counts"),
+    ]
+    found = parsed(text).block
+    assert found is not None
+    (arm,) = found.behaviors
+    assert isinstance(arm, KeyPoses)
+    assert arm.poses[0].hold == 0.3
+
+
 def test_a_stray_end_is_named() -> None:
     assert problems(GOOD + "END") == [(12, "this END closes nothing")]
 

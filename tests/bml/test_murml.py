@@ -194,6 +194,7 @@ def test_a_way_to_a_frame_eases_about_its_turning_point() -> None:
 
 
 GOOD = static("0 0 1")
+LEFT = static("0 0 1", more='scope="left_arm"')
 POSTURE = "<posture>Humanoid (vc4 3 1 2 3)</posture>"
 
 FAULTY: Iterable[tuple[str, str]] = (
@@ -219,13 +220,63 @@ FAULTY: Iterable[tuple[str, str]] = (
         "needs a value of the type normal; it is straight now",
     ),
     (dynamic("0 0 1", "0 0 2").replace("linear", "spiral"), "type of dynamicElement has no spiral"),
+    (
+        '<dynamic slot="HandLocation"><dynamicElement><value type="start" name="0 0 1"/>'
+        '<value type="direction" name="DirU"/><value type="distance" name="-0.3"/></dynamicElement></dynamic>',
+        "distance '-0.3': it must not be below 0",
+    ),
     (dynamic("0 0 1", "0 0 2").replace('"start"', '"begin"'), "type of value has no begin"),
 )
 
 
+MOVE = '<value type="start" name="0 0 1"/><value type="direction" name="DirU"/>'
+DOUBLED: Iterable[tuple[str, str]] = (
+    (static("0 0 2"), "HandLocation of right_arm is given twice; where both have a value, this one counts"),
+    (f"<sequence>{static('0 0 2')}</sequence>", "HandLocation of right_arm is given twice"),
+    (
+        f'<symmetrical dominant="left_arm" symmetry="SymMS">{static("0 0 2")}</symmetrical>',
+        "HandLocation of right_arm is given twice",
+    ),
+    (
+        f'<dynamic slot="HandLocation" scope="left_arm"><dynamicElement>{MOVE}\n'
+        '<value type="direction" name="DirD"/></dynamicElement></dynamic>',
+        "the value 'direction' is given twice; this one counts",
+    ),
+    (
+        f'<dynamic slot="HandLocation" scope="left_arm"><dynamicElement>{MOVE}\n'
+        '<value type="start" name="0 0 2"/></dynamicElement></dynamic>',
+        "the value 'start' is given twice; each of them counts",
+    ),
+)
+
+
+@pytest.mark.parametrize(("second", "sentence"), DOUBLED)
+def test_what_is_given_twice_is_named_with_its_place(second: str, sentence: str) -> None:
+    behavior, problems = read(f"<parallel>{GOOD}\n{second}</parallel>")
+    assert isinstance(behavior, MurmlGesture)
+    (told,) = problems
+    assert sentence in told.fault.sentence
+    assert told.fault.line == 4 + second.count("\n")
+
+
+def test_slots_one_after_the_other_and_of_both_hands_are_not_doubled() -> None:
+    left = static("0 0 1", more='scope="left_arm"')
+    meaning(f"<parallel><sequence>{GOOD}{GOOD}{static('0 0 2')}</sequence>{left}</parallel>")
+
+
+def test_a_joint_that_a_frame_gives_twice_is_named_and_the_last_one_counts() -> None:
+    frame = '<frame ftime="1">\n<posture>Humanoid (vc4 3 1 2 3) (vc4 3 4 5 6)</posture></frame>'
+    behavior, problems = read(FRAMES.format("", frame))
+    assert isinstance(behavior, MurmlGesture)
+    assert behavior.description.keyframing is not None
+    assert behavior.description.keyframing.frames[0].values == {"vc4": (4.0, 5.0, 6.0)}
+    told = [(each.fault.line, each.fault.sentence) for each in problems]
+    assert told == [(4, "vc4 is given twice; the last one counts")]
+
+
 @pytest.mark.parametrize(("wrong", "sentence"), FAULTY)
 def test_what_cannot_be_read_is_named_with_its_place_and_the_rest_plays(wrong: str, sentence: str) -> None:
-    behavior, problems = read(f"<parallel>{GOOD}\n  {wrong}</parallel>")
+    behavior, problems = read(f"<parallel>{LEFT}\n  {wrong}</parallel>")
     assert isinstance(behavior, MurmlGesture)
     assert behavior.description.tracks
     (problem,) = problems

@@ -11,6 +11,7 @@ from reactive_realizer.bml.embr.sequence import SequenceReader
 from reactive_realizer.bml.embr.syntax import SEQUENCE, read_nodes, text_of
 from reactive_realizer.bml.embr.timeline import Timed, timed
 from reactive_realizer.bml.embr.values import Notes
+from reactive_realizer.bml.faults import GivenTwice
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.limits import Limits
@@ -73,6 +74,7 @@ def read_lexeme(document: str | bytes) -> EmbrLexeme:
             TooManyPoses(poses=len(sequence.children), limit=_MOST_POSES).located(place.line, place.column)
         )
     poses = list(timed(sequence, 0.0, all_times))
+    _note_doubles(poses, notes)
     notes.faults += (each for each in all_times.faults if not isinstance(each, TimeBack))  # those are found again below
     begin = next((pose.reached for pose in poses if pose.node.sync == _START), 0.0)
     stroke = _between_rest_poses(poses)
@@ -98,6 +100,17 @@ def _between_rest_poses(poses: Sequence[Timed]) -> Sequence[Timed]:
     return poses[first:last]
 
 
+def _note_doubles(poses: Iterable[Timed], notes: Notes) -> None:
+    """Note labels that several poses have."""
+    seen: set[str] = set()
+    for pose in poses:
+        label = pose.node.sync
+        if label in seen:
+            counting = "the first one" if label in (_START, _END) else "this one"
+            notes.add(GivenTwice(what=f"SYNC:{label}", counting=counting), pose.node.location)
+        seen |= {label} if label else set()
+
+
 def _points(stroke: Iterable[Timed], notes: Notes) -> dict[str, float]:
     points: dict[str, float] = {}
     labels: dict[str, Timed] = {}
@@ -105,7 +118,7 @@ def _points(stroke: Iterable[Timed], notes: Notes) -> dict[str, float]:
         if pose.node.sync in _POINTS:
             labels[pose.node.sync] = pose
             points[_POINTS[pose.node.sync]] = pose.reached
-        elif pose.node.sync:
+        elif pose.node.sync not in ("", _START, _END):
             fault = UnknownName(kind="SYNC", name=pose.node.sync, known=(_START, *_POINTS, _END))
             notes.add(fault, pose.node.location)
     implied: dict[str, float] = {}

@@ -13,6 +13,7 @@ from reactive_realizer.bml.embr.syntax import NUCLEUS, ORIENTATION, POSITION, SW
 from reactive_realizer.bml.embr.timeline import SHORTEST, Timed
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.expressivity import MOST, NEUTRAL, Expressivity
+from reactive_realizer.bml.faults import GivenTwice
 from reactive_realizer.errors import RealizerError, quoted
 
 _PARAMETERS: Final = ("SPATIAL_EXT", "TEMPORAL_EXT", "POWER", "FLUIDITY")
@@ -54,6 +55,9 @@ class Nuclei:
         except RealizerError as refused:
             self._notes.faults.append(refused.fault)
             return
+        if id_ in self._known:
+            twice = GivenTwice(what=f"the NUCLEUS {quoted(id_)}", counting="this one")
+            self._notes.add(twice, node.values["NUCLEUS_ID"].location)
         self._known[id_] = Expressivity(*(self._number(node, name) for name in _PARAMETERS))
 
     def _number(self, node: Node, name: str) -> float:

@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from reactive_realizer.bml.embr.faults import NotAStatement, StrayEnd, Unclosed, UnknownScriptWord
+from reactive_realizer.bml.faults import GivenTwice
 from reactive_realizer.bml.names import Location
 from reactive_realizer.errors import Fault, quoted
 
@@ -213,6 +214,8 @@ class _NodeReader:
         node = self._open[-1]
         name, _, value = token.text.partition(":")
         known = PARAMETERS.get(node.name, ())
+        if name in node.values:
+            self._fault(GivenTwice(what=name, counting="this one"), token.location)
         if name in known:
             node.values[name] = Value(value, token.location)
         else:

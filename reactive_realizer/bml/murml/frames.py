@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Final, Protocol, TypeVar
 
 from reactive_realizer.bml.attribute_types import Boolean, Float
-from reactive_realizer.bml.faults import BadAttribute, BeyondLimit, MissingAttribute, UnknownElement
+from reactive_realizer.bml.faults import BadAttribute, BeyondLimit, GivenTwice, MissingAttribute, UnknownElement
 from reactive_realizer.bml.murml.description import Frame, Keyframing
 from reactive_realizer.bml.murml.faults import BadPosture, FrameTooEarly, MurmlNotRealized, NothingToPlay
 from reactive_realizer.bml.names import Location
@@ -99,21 +99,22 @@ class _FrameReader:
         values: dict[str, tuple[float, ...]] = {}
         faults: list[Fault] = []
         for posture in self._children(tree, "posture"):
-            values |= self._posture(posture, faults)
+            self._posture(posture, values, faults)
         if not values:
             raise RealizerError(faults[0] if faults else self.at(tree, NothingToPlay(element=name_of(tree))))
         self._notes += faults
         return Frame(time, values, self._locate(tree))
 
-    def _posture(self, tree: Tree, faults: list[Fault]) -> dict[str, tuple[float, ...]]:
-        values: dict[str, tuple[float, ...]] = {}
+    def _posture(self, tree: Tree, values: dict[str, tuple[float, ...]], faults: list[Fault]) -> None:
+        """Adds the values of a posture; those that cannot be read, or are there already, are faults."""
         for number, found in enumerate(_PART.finditer("".join(map(str, tree.itertext())))):
             part = _values(found[1]) if found[1] is not None else None
             if part is not None:
+                if part[0] in values:
+                    faults.append(self.at(tree, GivenTwice(what=quoted(part[0]), counting="the last one")))
                 values[part[0]] = part[1]
             elif number > 0 or found[1] is not None:
                 faults.append(self.at(tree, BadPosture(text=quoted(found[0]))))
-        return values
 
     # --- attributes and faults
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final, TypeVar
 
-from reactive_realizer.bml.faults import BeyondLimit, UnknownElement
+from reactive_realizer.bml.faults import BeyondLimit, GivenTwice, UnknownElement
 from reactive_realizer.bml.murml.description import (
     STRAIGHT,
     Bend,
@@ -42,7 +42,8 @@ _CURVES: Final = {"RightC": (-1.0, False), "LeftC": (1.0, False), "RightS": (-1.
 _USUAL_CURVE, _USUAL_EXTENT = "RightS", 0.2
 """Shape and extent of a curve without them, as in AsapRealizer."""
 
-_PLACES: Final = ("start", "via", "end")
+_VIA: Final = "via"
+_PLACES: Final = ("start", _VIA, "end")
 """The types of values that are reached one after another."""
 _VALUES: Final = (*_PLACES, "direction", "distance", "normal", "shape", "extent", "roundness", "skewedness")
 """All types of values."""
@@ -167,13 +168,26 @@ class MurmlReader:
                 return self._dynamic(tree, scope)
 
     def _parallel(self, tree: Tree, scope: Scope | None = None) -> _Part:
-        parts = [self._part(child, scope) for child in self._children(tree, _MOVEMENTS)]
+        children = self._children(tree, _MOVEMENTS)
+        parts = [self._part(child, scope) for child in children]
+        self._note_doubles(children, parts)
         length = max((part.length for part in parts), default=0.0)
         tracks: list[Track] = []
         for part in parts:
             whole = part.kept(length) if part.length < length and part.length == 0.0 else part
             tracks += whole.placed(0.0, length / whole.length if whole.length else 1.0)
         return _Part(tuple(tracks), length)
+
+    def _note_doubles(self, children: Iterable[Tree], parts: Iterable[_Part]) -> None:
+        """Note the first slot that each of some parts has of one hand, although an earlier one has it at that time."""
+        taken: set[tuple[Slot, Scope]] = set()
+        for child, part in zip(children, parts, strict=True):
+            own = [(track.slot, track.scope) for track in part.tracks]
+            doubled = next((each for each in own if each in taken), None)
+            if doubled is not None:
+                what = "{} of {}".format(*doubled)
+                self._note(child, GivenTwice(what=what, counting="where both have a value, this one"))
+            taken.update(own)
 
     def _sequence(self, tree: Tree, scope: Scope | None) -> _Part:
         """Its parts one after another, with a movement from each to the next unless that goes on where it ends."""
@@ -244,7 +258,12 @@ class MurmlReader:
         Raises:
             RealizerError: it needs a value, or one is bad.
         """
-        values = {child.get("type", ""): child for child in self._children(tree, ("value",))}
+        values: dict[str, Tree] = {}
+        for child in self._children(tree, ("value",)):
+            kind = child.get("type", "")
+            if kind in values and kind != _VIA:
+                self._note(child, GivenTwice(what=f"the value '{quoted(kind)}'", counting=_counting(kind)))
+            values[kind] = child
         for kind in values.keys() - set(_VALUES):
             self._note(values[kind], UnknownSymbol(slot="type of value", symbol=quoted(kind), known=_VALUES))
         stops = [child for child in self._children(tree, ("value",)) if child.get("type") in _PLACES]
@@ -379,6 +398,11 @@ class MurmlReader:
     def _at(self, tree: Tree, fault: Fault) -> Fault:
         place = self._locate(tree)
         return fault.located(place.line, place.column)
+
+
+def _counting(kind: str) -> str:
+    """Which of two values of a type counts: places are reached one after another."""
+    return "each of them" if kind in _PLACES else "this one"
 
 
 def _goes_on(ends: Mapping[tuple[Slot, Scope], SlotValue], after: Iterable[Track]) -> bool:

@@ -98,16 +98,18 @@ def direction_of(slot: str, text: str) -> Coordinates:
 
 
 def number_of(slot: str, text: str, symbols: Mapping[str, float]) -> float:
-    """The number that a text or a symbol denotes.
+    """The length that a text or a symbol denotes.
 
     Raises:
-        RealizerError: it is neither.
+        RealizerError: it is neither, or below 0.
     """
     if text in symbols:
         return symbols[text]
     number = _number(text)
     if number is None:
         raise RealizerError(UnknownSymbol(slot=slot, symbol=quoted(text), known=tuple(symbols)))
+    if number < 0.0:
+        raise _bad(slot, text, "it must not be below 0")
     return number
 
 

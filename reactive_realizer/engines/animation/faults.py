@@ -261,6 +261,15 @@ class NoGroup(CreationFault):
     known: tuple[str, ...]
 
 
+class GoalOverruled(CreationFault):
+    """A goal of a key pose beside others of its kind that count."""
+
+    code = "goal-overruled"
+    template = "this {goal} has no effect: {why}"
+    goal: str
+    why: str
+
+
 class NotOfGroup(CreationFault):
     """A goal of a key pose that the joints of its group cannot have."""
 

@@ -13,7 +13,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import HEAD, other_side
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, length, subtract, unit
-from reactive_realizer.engines.animation.faults import NoDirection, NotOfGroup
+from reactive_realizer.engines.animation.faults import GoalOverruled, NoDirection, NotOfGroup
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, hand_axes
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
 from reactive_realizer.engines.animation.key_poses.direction import Direction
@@ -68,8 +68,32 @@ class PoseGoals:
         return tuple(fault.sentence for fault in self.notes)
 
     def met(self, goals: Iterable[KeyPoseGoal]) -> list[KeyPoseGoal]:
-        """Return the goals that the figure can meet."""
-        return [goal for goal in goals if self._is_met(goal)]
+        """Return the goals of a pose that the figure can meet."""
+        possible = [goal for goal in goals if self._is_met(goal)]
+        if len(possible) < 2:
+            return possible
+        overruled = self._overruled(possible)
+        for goal, why in overruled:
+            self._note(goal, GoalOverruled(goal=goal.ELEMENT, why=why))
+        return [goal for goal in possible if all(goal is not other for other, _ in overruled)]
+
+    def _overruled(self, goals: Sequence[KeyPoseGoal]) -> list[tuple[KeyPoseGoal, str]]:
+        """Return the goals of a pose without effect, and why: of orientations, two count, of other goals, the last."""
+        kinds: dict[tuple[str, str | None], list[KeyPoseGoal]] = {}
+        for goal in goals:
+            joint = goal.joint if isinstance(goal, OrientationGoal) else None
+            kind = "" if self._group in EYE_GROUPS else goal.ELEMENT
+            kinds.setdefault((kind, joint), []).append(goal)
+        found: list[tuple[KeyPoseGoal, str]] = []
+        for (kind, _), own in kinds.items():
+            if kind == OrientationGoal.ELEMENT and self._group is not BodyGroup.SHOULDERS:
+                found += ((goal, "two others of this key pose come before it") for goal in own[2:])
+            else:
+                found += ((goal, "a later one of this key pose counts") for goal in own[:-1])
+        if self._group in WEIGHTS and (LookAtGoal.ELEMENT, None) in kinds:
+            faced = (goal for goal in goals if isinstance(goal, OrientationGoal) and goal.axis is BodyAxis.FACE)
+            found += ((goal, "the face looks at a place in this key pose") for goal in faced)
+        return found
 
     def solved(self, goals: Iterable[KeyPoseGoal]) -> SolvedPose | None:
         """Return the pose that meets goals; None if the figure can meet none of them."""
@@ -97,10 +121,12 @@ class PoseGoals:
         try:
             self._check(goal)
         except RealizerError as refused:
-            place = goal.location
-            self._notes.setdefault(refused.fault.sentence, refused.fault.located(place.line, place.column))
+            self._note(goal, refused.fault)
             return False
         return True
+
+    def _note(self, goal: KeyPoseGoal, fault: Fault) -> None:
+        self._notes.setdefault(fault.sentence, fault.located(goal.location.line, goal.location.column))
 
     def _check(self, goal: KeyPoseGoal) -> None:
         """Check that the figure can meet a goal.
