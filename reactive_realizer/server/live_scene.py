@@ -22,11 +22,10 @@ from reactive_realizer.server.frame_stream import FrameStream
 from reactive_realizer.server.protocol import VERSION, Message
 from reactive_realizer.server.steps_stream import StepsStream
 
-_YOUNG, _OLDER = 20_000, 1_000
-"""Number of new objects that trigger a collection of these, which takes some milliseconds: a frame of 100 characters in
-the making has half as many. And number of these collections after which what they left is searched too, which takes
-longer the more is alive."""
-
+_YOUNG, _OLDER = 7_000, 3_000
+"""Number of new objects that trigger a collection of these, which takes about a millisecond: the planning of a tick
+leaves as many. And number of these collections after which what they left is searched too, which takes longer the more
+is alive."""
 
 _SWITCH = 0.0005
 """Time after which a thread that parses or solves lets a tick begin, s; Python's default is 5 ms."""
