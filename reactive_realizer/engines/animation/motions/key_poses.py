@@ -104,7 +104,7 @@ class KeyPosesMotionUnit(MotionUnit):
             whole_body: whether it is a posture rather than a gesture.
         """
         self.parameters = {}
-        self.joints = frozenset(joint for key in keys for joint in key.pose.joints)
+        self.joints = frozenset[str]().union(*(key.pose.joints for key in keys))
         self.kind = _kind(self.joints, whole_body=whole_body)
         self._keys = keys
         self._begins = [key.begins for key in keys]
