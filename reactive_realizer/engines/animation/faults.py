@@ -336,6 +336,15 @@ class BadCapture(CreationFault):
     reason: str
 
 
+class BadBinaryMotion(CreationFault):
+    """A motion in a binary format that cannot be used."""
+
+    code = "bad-binary-motion"
+    template = "{file}: {reason}"
+    file: str
+    reason: str
+
+
 class BadKeys(CreationFault):
     """Keyframes that cannot be played."""
 

@@ -1,5 +1,7 @@
 """Skeletons and motions in SmartBody's formats, made for the tests."""
 
+import math
+import struct
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
@@ -132,3 +134,58 @@ def skm(
     rows = "\n".join(row(number, frame) for number, frame in enumerate(frames))
     head = f'# a motion\nSkMotion\n\nname "Some"\n\nchannels {len(channels)}\n{listed}'
     return f"{head}\n\nframes {len(frames)}\n{rows}\n{end}"
+
+
+_KINDS = ("XPos", "YPos", "ZPos", "XRot", "YRot", "ZRot", "Quat", "Swing", "Twist")
+
+
+def skmb(text: str, points: Sequence[float] = (), *, packed: bool = False) -> bytes:
+    """The motion of a text (`skm`) in the binary format.
+
+    Args:
+        text: of the motion, with rotations as axis times angle.
+        points: its seven sync points, s, below 0 if they are not set.
+        packed: whether numbers of one kind are in one field.
+    """
+    _, _, body = text.partition("channels ")
+    lines = body.split("frames")[0].split("\n")[1:]
+    channels = [line.split() for line in lines if line.strip()]
+    rows = [row.split() for row in body.split("frames")[1].splitlines() if row.startswith("kt")]
+    values: list[float] = []
+    for row in rows:
+        written = iter(map(float, row[3:]))
+        for _, kind in channels:
+            if kind == "Quat":
+                values += _quat(next(written), next(written), next(written))
+            else:
+                values.append(next(written) * (math.pi / 180.0 if kind.endswith("Rot") else 1.0))
+    message = _bytes(1, b"Some") + _number(2, len(channels))
+    message += b"".join(_bytes(3, name.encode()) + _number(4, _KINDS.index(kind)) for name, kind in channels)
+    message += _number(5, len(rows))
+    for field, floats in ((6, [float(row[1]) for row in rows]), (7, values), (8, points)):
+        each = [struct.pack("<f", value) for value in floats]
+        message += _bytes(field, b"".join(each)) if packed else b"".join(_key(field, 5) + one for one in each)
+    return message + _bytes(9, _bytes(1, b"emotion") + _bytes(2, b"none"))
+
+
+def _quat(x: float, y: float, z: float) -> list[float]:
+    half = 0.5 * math.hypot(x, y, z)
+    share = 0.5 * (math.sin(half) / half if half else 1.0)
+    return [math.cos(half), share * x, share * y, share * z]
+
+
+def _number(field: int, value: int) -> bytes:
+    return _key(field, 0) + _varint(value)
+
+
+def _bytes(field: int, content: bytes) -> bytes:
+    return _key(field, 2) + _varint(len(content)) + content
+
+
+def _key(field: int, kind: int) -> bytes:
+    return _varint(field << 3 | kind)
+
+
+def _varint(value: int) -> bytes:
+    rest, low = value >> 7, value & 0x7F
+    return bytes([low | 0x80]) + _varint(rest) if rest else bytes([low])

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reactive_realizer.embodiment.avatar import Avatar
-from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, rotation_vector
+from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, multiply, rotation_vector
 from reactive_realizer.embodiment.vector import Vec3, unit
 from reactive_realizer.engines.animation.keyframe.clip import Clip
 from reactive_realizer.engines.animation.keyframe.clip_files import load_clip, skeleton_beside
@@ -19,9 +19,10 @@ from reactive_realizer.errors import RealizerError
 
 from .capturing import T_POSE, Turns, assert_same_directions, captured_directions, directions
 from .conftest import ASSETS
-from .smartbody_files import NAMES, STANDARD, sk, skm
+from .smartbody_files import NAMES, STANDARD, sk, skm, skmb
 
 SKELETON = Avatar.read(ASSETS / "avatars" / "female.glb").skeleton
+AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 POSE: Turns = {"LeftArm": (30.0, 20.0, 10.0), "RightLeg": (0.0, 40.0, 0.0), "Spine": (0.0, 10.0, 0.0)}
 ALONG = {
     f"{side}{bone}": from_axis_angle((0.0, 0.6, 0.8), 1.2) for side in ("Left", "Right") for bone in ("Arm", "Leg")
@@ -212,6 +213,72 @@ def test_a_changed_skeleton_is_read_again(tmp_path: Path) -> None:
     assert small[2] == pytest.approx(2.0 * large[2])
 
 
+def test_angles_turn_a_joint_about_y_then_x_then_z(tmp_path: Path) -> None:
+    """As SmartBody's usual Euler joints do, in the axes of the joint as it is turned."""
+    head = "SkMotion channels 3\nJtShoulderLf XRot\nJtShoulderLf YRot\nJtShoulderLf ZRot\nframes 2\n"
+    row = "fr 20 30 40\n"
+    angled = load(tmp_path, f"{head}kt 0 {row}kt 0.1 {row}", sk(ALONG)).rotations_at(0.0)
+    x, y, z = (from_axis_angle(axis, math.radians(angle)) for axis, angle in zip(AXES, (20, 30, 40), strict=True))
+    quat = " ".join(f"{value:.9f}" for value in rotation_vector(multiply(multiply(z, x), y)))
+    head = "SkMotion channels 1\nJtShoulderLf Quat\nframes 2\n"
+    turned = load(tmp_path, f"{head}kt 0 fr {quat}\nkt 0.1 fr {quat}\n", sk(ALONG)).rotations_at(0.0)
+    assert angled.keys() == turned.keys()
+    for joint, rotation in turned.items():
+        assert angled[joint] == pytest.approx(rotation, abs=1e-6)
+
+
+# --- the binary format
+
+
+def load_binary(folder: Path, message: bytes) -> Clip:
+    """The clip of a motion in the binary format."""
+    (folder / "Figure.sk").write_text(sk())
+    path = folder / "Figure@Move01.skmb"
+    path.write_bytes(message)
+    return load_clip(path, SKELETON, None)
+
+
+@pytest.mark.parametrize("packed", [False, True])
+def test_a_motion_in_the_binary_format_is_that_of_its_text(tmp_path: Path, packed: bool) -> None:
+    text = skm(POSE, {}, POSE, places=[(0.0, 0.0, 0.0), (0.0, 0.0, 10.0), (5.0, 0.0, 20.0)])
+    text = text.replace("JtSpineA Quat", "JtSpineA XRot\nJtSpineA YRot\nJtSpineA ZRot")
+    text = text.replace("channels 22", "channels 24")
+    points = (0.0, 0.05, 0.1, 0.12, -1.0, 0.15, 0.2)
+    written = load(tmp_path, f"{text}ready time: 0.05\nstrokeStart time: 0.1\nemphasis time: 0.12\nrelax time: 0.15")
+    clip = load_binary(tmp_path, skmb(text, points, packed=packed))
+    assert clip.joints == written.joints
+    assert clip.times == pytest.approx(written.times)
+    assert clip.rotations == pytest.approx(written.rotations, abs=1e-5)
+    assert clip.roots == pytest.approx(written.roots, abs=1e-5)
+    assert {sync: point.time for sync, point in clip.points.items()} == pytest.approx(
+        {sync: point.time for sync, point in written.points.items()}
+    )
+
+
+BINARY = skmb(skm({}, POSE))
+
+
+@pytest.mark.parametrize(
+    ("message", "reason"),
+    [
+        (b"", "0 names of joints are for 0 channels"),
+        (BINARY[:-300], "it ends unexpectedly"),
+        (b"\x0b" + BINARY, "a field of the type 3"),
+        (b"\xff" * 20, "a number is too long"),
+        (skmb(skm({}, POSE).replace("Quat", "Twist", 1)), "a channel Twist, which SmartBody does not play either"),
+        (skmb(skm({}, POSE, step=0.0)), "the times of the frames do not increase"),
+        (skmb(skm({}, POSE).replace("kt 0.100000", "kt inf")), "values that are no numbers up to"),
+        (b"\x22\x01\x63" + BINARY, "there is no kind of channels 99"),
+        (b"\x35" + bytes(4) + BINARY, "values are not those of 3 frames"),
+    ],
+    ids=["empty", "cut", "group", "varint", "twist", "times", "infinite", "kind", "frames"],
+)
+def test_errors_of_a_binary_motion_say_what_is_wrong(tmp_path: Path, message: bytes, reason: str) -> None:
+    with pytest.raises(RealizerError, match=reason) as raised:
+        load_binary(tmp_path, message)
+    assert str(raised.value).startswith("Figure@Move01.skmb: ")
+
+
 # --- bad files
 
 MOTION = skm({}, POSE)
@@ -226,9 +293,10 @@ MOTION = skm({}, POSE)
         (MOTION.replace("channels 19", "channels many"), "line 6: 'many' is not a count"),
         ("SkMotion channels 0 frames 1 kt 0 fr", "line 1: there are no channels"),
         (
-            MOTION.replace("JtSpineA Quat", "JtSpineA XRot"),
-            "line 9: the channel before is none of XPos, YPos, ZPos and",
+            MOTION.replace("JtSpineA Quat", "JtSpineA XTurn"),
+            "line 9: the channel before is none of XPos, YPos, ZPos, XRot, YRot, ZRot and",
         ),
+        (MOTION.replace("JtSpineA Quat", "JtSpineA Swing"), "line 8: it has a channel Swing, which SmartBody does not"),
         (MOTION.replace("frames 2", "frame 2"), "line 27: found 'frame' instead of frames"),
         (MOTION.replace("frames 2", "frames 3"), "line 29: the motion ends unexpectedly"),
         (MOTION.replace("frames 2", "frames 0"), "line 27: there are no frames"),

@@ -14,9 +14,9 @@ from reactive_realizer.engines.animation.keyframe.skm_reader import read_motion
 from reactive_realizer.errors import Fault, RealizerError
 
 _BVH: Final = "bvh"
-_SMARTBODY: Final = "skm"
+_SMARTBODY: Final = ("skm", "skmb")
 _SKELETON: Final = ".sk"
-CAPTURES: Final = (_BVH, _SMARTBODY)
+CAPTURES: Final = (_BVH, *_SMARTBODY)
 """Suffixes of files with the motion of a figure of their own, in order of preference."""
 CLIPS: Final = ("xml", *CAPTURES)
 """Suffixes of all files with clips, in order of preference."""
@@ -53,7 +53,7 @@ def load_clip(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip:
 
 def preload_clip(path: Path, skeleton: Skeleton, cutoff: float | None) -> Clip | Fault:
     """Return the result or the fault of `load_clip`, and cache it: reading and filtering a capture may take seconds."""
-    own = skeleton_beside(path) if _format(path) == _SMARTBODY else None
+    own = skeleton_beside(path) if _format(path) in _SMARTBODY else None
     return _read(path, own, tuple(file.stat().st_mtime_ns for file in (path, own) if file), skeleton, cutoff)
 
 
@@ -75,7 +75,7 @@ def _clip(path: Path, own: Path | None, changed: tuple[int, ...], skeleton: Skel
 @lru_cache(8)
 def _capture(path: Path, own: Path | None, changed: tuple[int, ...]) -> Capture:
     """Read a capture once for all figures."""
-    return read_motion(path, own) if _format(path) == _SMARTBODY else read_capture(path)
+    return read_motion(path, own) if _format(path) in _SMARTBODY else read_capture(path)
 
 
 def skeleton_beside(motion: Path) -> Path | None:

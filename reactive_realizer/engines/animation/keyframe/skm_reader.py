@@ -1,4 +1,4 @@
-"""Reads motions in SmartBody's format ``.skm``, with the skeleton that they are for.
+"""Reads motions in SmartBody's formats ``.skm`` and ``.skmb``, with the skeleton that they are for.
 
 A motion names channels of joints, then their values at times, then its sync points (sk_motion_io and sk_channel of
 SmartBody). A rotation is written as axis times angle, rad, in the turned axes of its joint; a position is added to the
@@ -7,9 +7,9 @@ offset of its joint.
 
 import logging
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
@@ -19,14 +19,25 @@ from reactive_realizer.embodiment.quaternion import multiply
 from reactive_realizer.embodiment.vector import scale
 from reactive_realizer.engines.animation.keyframe.capture import Array, Capture, CapturedJoint, product
 from reactive_realizer.engines.animation.keyframe.capture_words import CaptureWords, read_text
+from reactive_realizer.engines.animation.keyframe.sk_motion import (
+    ANGLES,
+    KINDS,
+    ONE_POSE,
+    PLACES,
+    QUAT,
+    UNPLAYED,
+    SkMotion,
+    add_point,
+    completed,
+    width,
+)
 from reactive_realizer.engines.animation.keyframe.sk_reader import SK_WORD, SkJoint, read_skeleton, without_comments
+from reactive_realizer.engines.animation.keyframe.skmb_reader import read_binary_motion
 
 _log = logging.getLogger(__name__)
 
+_BINARY: Final = ".skmb"
 _SIGNATURES: Final = ("skmotion", "homotion", "knmotion")
-_QUAT: Final = "quat"
-_PLACES: Final = ("xpos", "ypos", "zpos")
-_KINDS: Final = (_QUAT, *_PLACES)
 _POINTS: Final = {
     "ready": "ready",
     "stroke_start": "strokeStart",
@@ -40,10 +51,6 @@ _POINTS: Final = {
 }
 """Sync points of SmartBody's motions, to those of BML: its emphasis is BML's stroke, and its stroke the end of it."""
 _SPELLINGS: Final = {spelled: sync for name, sync in _POINTS.items() for spelled in (name, f"{name}Time")}
-_ROUNDED: Final = 0.05
-"""Time by which a sync point may be outside of its motion because it was rounded, s."""
-_ONE_POSE: Final = 1.0 / 30.0
-"""Duration of a motion of one frame, s."""
 _METERS: Final = re.compile(r"^\s*#.*\bUnits:\s*m\b", re.MULTILINE)
 _CENTIMETER: Final = 0.01
 _STANDARD: Final = Path(__file__).with_name("standard.sk")
@@ -52,50 +59,34 @@ _NEVER: Final = frozenset((*EYES, JAW))
 """Joints that gaze and speech move; motions have channels for all joints, these too."""
 
 
-class SkMotion(NamedTuple):
-    """A motion without a skeleton.
-
-    Attributes:
-        name: in the file, often that of its skeleton, "@" and its own; empty if there is none.
-        channels: name of the joint and kind, in lower case, in the order of the values.
-        times: of the frames, s, (F,).
-        values: of all channels in each frame, (F, C).
-        points: sync id -> time, s.
-        meters: whether the file says that its lengths are in meters.
-    """
-
-    name: str
-    channels: tuple[tuple[str, str], ...]
-    times: Array
-    values: Array
-    points: Mapping[str, float]
-    meters: bool
-
-
 def read_motion(path: Path, skeleton: Path | None) -> Capture:
-    """Read a motion.
+    """Read a motion in text or, if its name ends in ``.skmb``, in the binary format.
 
     Args:
         path: of the motion.
         skeleton: its skeleton; None for the standard one.
 
     Raises:
-        RealizerError: "bad-capture", with file, line and reason; or a file is too big.
+        RealizerError: "bad-capture", with file, line and reason, or "bad-binary-motion"; or a file is too big.
         OSError: a file cannot be read.
     """
-    text = read_text(path)
-    words = CaptureWords(path.name, without_comments(text), "motion", SK_WORD)
-    motion = _read(path.name, words, meters=_METERS.search(text) is not None)
-    words.row = 1
+    motion = read_binary_motion(path) if path.suffix.lower() == _BINARY else _read_text(path)
+    whole = CaptureWords(path.name, "", "motion")  # names the file, and its first line, in errors
     joints = read_skeleton(skeleton or _STANDARD)
     if not {joint.name for joint in joints} & {joint for joint, _ in motion.channels}:
         own = f"of {skeleton.name}" if skeleton else "of SmartBody's standard skeleton, and its own is not beside it"
-        raise words.bad(f"its joints, such as {motion.channels[0][0]}, are not those {own}")
-    words.check_size(len(joints), len(motion.times))
+        raise whole.bad(f"its joints, such as {motion.channels[0][0]}, are not those {own}")
+    whole.check_size(len(joints), len(motion.times))
     if skeleton is None:
         _log.warning("%s: no skeleton is beside it; SmartBody's standard skeleton is assumed", path.name)
         joints = tuple(_in_unit(joint, motion) for joint in joints)
     return _capture(path.name, motion, joints)
+
+
+def _read_text(path: Path) -> SkMotion:
+    text = read_text(path)
+    words = CaptureWords(path.name, without_comments(text), "motion", SK_WORD)
+    return _read(path.name, words, meters=_METERS.search(text) is not None)
 
 
 def _in_unit(joint: SkJoint, motion: SkMotion) -> SkJoint:
@@ -109,27 +100,43 @@ def _capture(name: str, motion: SkMotion, joints: Sequence[SkJoint]) -> Capture:
     rests = np.array([multiply(joint.before, joint.after) for joint in joints])
     turns = np.tile(rests, (len(motion.times), 1, 1))
     moves: dict[int, Array] = {}
+    angles: dict[int, Array] = {}
     about: set[int] = set()
     column = 0
     for joint, kind in motion.channels:
-        values = motion.values[:, column : column + _width(kind)]
-        column += _width(kind)
+        values = motion.values[:, column : column + width(kind)]
+        column += width(kind)
         index = places.get(joint)
         if index is None:
             continue
         own = joints[index]
         about.add(index)
-        if kind == _QUAT:
-            turns[:, index] = product(product(np.array(own.before), _quaternions(values)), np.array(own.after))
+        if kind == QUAT:
+            turns[:, index] = _turned(own, _quaternions(values))
+        elif kind in ANGLES:
+            angles.setdefault(index, np.zeros((len(values), 3)))[:, ANGLES.index(kind)] = values[:, 0]
         else:
             moved = moves.setdefault(index, np.tile(own.offset, (len(values), 1)))
-            moved[:, _PLACES.index(kind)] += values[:, 0]
+            moved[:, PLACES.index(kind)] += values[:, 0]
+    for index, turned in angles.items():
+        turns[:, index] = _turned(joints[index], _of_angles(turned))
     captured = tuple(
         CapturedJoint(joint_named(own.name), own.parent, own.offset, _quat(rest))
         for own, rest in zip(joints, rests.tolist(), strict=True)
     )
     played = frozenset(index for index in about if captured[index].name not in _NEVER)
     return Capture(name, captured, tuple(motion.times.tolist()), turns, moves, played, motion.points)
+
+
+def _turned(joint: SkJoint, turns: Array) -> Array:
+    """Return the rotations of a joint, (F, 4), of which a motion has those in its turned axes."""
+    return product(product(np.array(joint.before), turns), np.array(joint.after))
+
+
+def _of_angles(degrees: Array) -> Array:
+    """Return unit quaternions, (F, 4), of turns about y, then x, then z, of angles about x, y, z, degrees, (F, 3)."""
+    about_x, about_y, about_z = (_quaternions(np.radians(degrees) * axis) for axis in np.eye(3))
+    return product(product(about_z, about_x), about_y)
 
 
 def _quat(values: list[float]) -> tuple[float, float, float, float]:
@@ -143,17 +150,13 @@ def _quaternions(vectors: Array) -> Array:
     return np.concatenate([np.cos(half), 0.5 * vectors * np.sinc(half / np.pi)], axis=-1)
 
 
-def _width(kind: str) -> int:
-    return 3 if kind == _QUAT else 1
-
-
 def _read(name: str, words: CaptureWords, *, meters: bool) -> SkMotion:
     """Read the words of a motion."""
     if words.next().lower() not in _SIGNATURES:
         raise words.bad("the file should begin with SkMotion")
-    word, own = words.next(), ""
+    word = words.next()
     if word == "name":
-        own, word = words.next().strip('"'), words.next()
+        _, word = words.next(), words.next()
     if word != "channels":
         raise words.bad(f"found '{word}' instead of channels")
     channels = tuple(_channel(words) for _ in range(words.count()))
@@ -164,21 +167,25 @@ def _read(name: str, words: CaptureWords, *, meters: bool) -> SkMotion:
         first, word = words.number(), words.next()
     if word != "frames":
         raise words.bad(f"found '{word}' instead of frames")
-    times, values = _frames(words, sum(_width(kind) for _, kind in channels))
+    times, values = _frames(words, sum(width(kind) for _, kind in channels))
     if first is not None:
         times = times + (first - times[0])
-    return SkMotion(own, channels, times, values, _points(name, words, times.tolist()), meters)
+    return SkMotion(channels, times, values, _points(name, words, times.tolist()), meters)
 
 
 def _channel(words: CaptureWords) -> tuple[str, str]:
     """Read the name of a joint, which may consist of several words, and the kind of a channel, in one line."""
     name, kind = [words.next()], words.next()
     row = words.row
-    while kind.lower() not in _KINDS:
+    while kind.lower() not in KINDS:
+        if kind.lower() in UNPLAYED:
+            raise words.bad(f"it has a channel {kind}, which SmartBody does not play either")
         name.append(kind)
         kind = words.next()
         if words.row != row:
-            raise words.bad(f"the channel before is none of XPos, YPos, ZPos and Quat: '{' '.join(name)}'")
+            raise words.bad(
+                f"the channel before is none of XPos, YPos, ZPos, XRot, YRot, ZRot and Quat: '{' '.join(name)}'"
+            )
     return " ".join(name).strip('"'), kind.lower()
 
 
@@ -198,14 +205,13 @@ def _frames(words: CaptureWords, width: int) -> tuple[Array, Array]:
     if not times:
         raise words.bad("there are no frames")
     if len(times) == 1:
-        times, values = [times[0], times[0] + _ONE_POSE], values * 2
+        times, values = [times[0], times[0] + ONE_POSE], values * 2
     return np.array(times), np.array(values)
 
 
 def _points(name: str, words: CaptureWords, times: Sequence[float]) -> dict[str, float]:
     """Read the sync points behind the frames; other words there are data about the motion."""
     points: dict[str, float] = {}
-    first, last = times[0], times[-1]
     while word := words.next_if_any():
         sync = _SPELLINGS.get(word.rstrip(":"))
         if sync is None:
@@ -213,23 +219,5 @@ def _points(name: str, words: CaptureWords, times: Sequence[float]) -> dict[str,
         value = words.next()
         while value in ("time", "time:", ":"):
             value = words.next()
-        time = words.finite(value.strip('"'))
-        if first - _ROUNDED <= time <= last + _ROUNDED:
-            points[sync] = min(max(time, first), last)
-        elif time >= 0.0:  # a point below 0 is not set
-            _log.warning("%s, line %d: %s at %g s is outside of the motion", name, words.row, word, time)
-    return _completed(points, first, last)
-
-
-def _completed(points: Mapping[str, float], first: float, last: float) -> dict[str, float]:
-    """Return sync points with those that are missing, at the times of others, because every motion has all of them."""
-    ready, relax = points.get("ready", first), points.get("relax", last)
-    stroke_start = points.get("strokeStart", ready)
-    missing = {
-        "ready": ready,
-        "strokeStart": stroke_start,
-        "stroke": points.get("stroke", stroke_start),
-        "strokeEnd": relax,
-        "relax": relax,
-    }
-    return {**missing, **points}
+        add_point(points, sync, words.finite(value.strip('"')), times, f"{name}, line {words.row}")
+    return completed(points, times)
