@@ -18,7 +18,7 @@ from reactive_realizer.bml.block import (
     Synchronize,
     UseProc,
 )
-from reactive_realizer.bml.extensions import Controller, Emit, Noise
+from reactive_realizer.bml.extensions import Emit, Noise, lasts
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN, SBM
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.writer import attribute_texts, behavior_element, text_of
@@ -103,7 +103,7 @@ class _Writer:
 
 def _is_draft(behavior: Behavior) -> bool:
     """Return whether a behavior can be written only in a draft of BML, such as a gaze that persists."""
-    return behavior.persistent and not isinstance(behavior, Controller) and bool(behavior.source)
+    return behavior.persistent and not lasts(behavior) and bool(behavior.source)
 
 
 def _lasting_noise(noise: Noise) -> Tree:

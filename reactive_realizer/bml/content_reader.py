@@ -10,7 +10,7 @@ from reactive_realizer.bml.behaviors import Gaze, Posture
 from reactive_realizer.bml.block import Constraint, Order, OrderKind, Problem, Synchronize
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.drafts import modernize
-from reactive_realizer.bml.extensions import Controller, Noise
+from reactive_realizer.bml.extensions import Noise, lasts
 from reactive_realizer.bml.faults import DuplicateId, LipsLeftOut, MissingElement, MoreProblems, TooManyBehaviors
 from reactive_realizer.bml.smartbody.behaviors import adapt, is_of_smartbody
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -97,13 +97,13 @@ class ContentReader:
         return [child for child in children if child[0] not in lips]
 
     def _persistent(self) -> list[Behavior]:
-        """The persistent behaviors: controllers; gazes, postures, noise of drafts; if nothing is tied to their end.
+        """The persistent behaviors: controllers, loops; gazes, postures, noise of drafts; if their end is not tied.
 
         Thesis 6.3 and C.4.
         """
         tied = (ref for tie in self._constraints if isinstance(tie, Synchronize) for ref in tie.refs)
         ended = {ref.behavior for ref in tied if ref.block is None and ref.sync in _ENDING}
-        may = [each for each in self._behaviors.values() if isinstance(each, Controller) or self._is_draft_pose(each)]
+        may = [each for each in self._behaviors.values() if lasts(each) or self._is_draft_pose(each)]
         return [each for each in may if each.id not in ended and not _ENDING & set(each.syncs)]
 
     def _is_draft_pose(self, behavior: Behavior) -> bool:

@@ -362,3 +362,13 @@ class BehaviorParameter:
 
     name: str = field(metadata=attribute(Text()))
     value: str = field(metadata=attribute(Text()))
+
+
+_LOOP: Final = "loop"
+"""Parameter of a clip that is played over and over."""
+
+
+def lasts(behavior: Behavior) -> bool:
+    """Return whether a behavior is persistent, in any document, if its end is not tied: a controller, or a loop."""
+    looping = isinstance(behavior, Keyframe) and behavior.parameters.get(_LOOP, "").lower() in ("true", "1")
+    return looping or isinstance(behavior, Controller)

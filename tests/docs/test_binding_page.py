@@ -71,6 +71,24 @@ async def test_the_emphasis_of_the_motion_of_smartbody_is_on_the_word(assets: Pa
     assert moved(pilot, "l_wrist", "b:raise") > 0.3
 
 
+async def test_the_loop_on_the_page_goes_on_until_its_end(assets: Path) -> None:
+    (example,) = [fence for fence in fences(PAGE, "xml") if 'name="loop"' in fence.text]
+    pilot = await play(assets, example.text)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:juggle:end") - pilot.feedback.time("b:juggle:start") == pytest.approx(4.0)
+    path = pilot.path("r_wrist")[140:200]  # the third round
+    assert float(np.ptp(path, axis=0).max()) > 0.2
+
+
+async def test_the_blend_on_the_page_is_between_its_clips(assets: Path) -> None:
+    (example,) = [fence for fence in fences(PAGE, "xml") if fence.note == "plays a blend"]
+    pilot = await play(assets, example.text)
+    assert pilot.feedback.warnings == []
+    start = pilot.feedback.time("b:r:start")
+    assert pilot.feedback.time("b:r:caught") - start == pytest.approx(0.65)
+    assert pilot.feedback.time("b:r:end") - start == pytest.approx(1.7)
+
+
 async def test_a_gentle_interrupt_ends_the_catch_at_its_next_exit(assets: Path) -> None:
     spaces = 'xmlns="http://www.bml-initiative.org/bml/bml-1.0" xmlns:bmla="http://www.asap-project.org/bmla"'
     catch = f'<bml {spaces} id="a"><gesture id="g" lexeme="CATCH" start="0"/></bml>'

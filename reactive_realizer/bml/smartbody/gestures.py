@@ -4,8 +4,16 @@ from typing import Final
 
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.names import BMLT, SBM
-from reactive_realizer.bml.smartbody.attributes import drop, left_out, set_parameter, take, take_number, tie
-from reactive_realizer.bml.trees import Tree
+from reactive_realizer.bml.smartbody.attributes import (
+    OTHER_POINTS,
+    drop,
+    left_out,
+    set_parameter,
+    take,
+    take_number,
+    tie,
+)
+from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault
 
 _CLASSES: Final = frozenset({"ADAPTOR", "BEAT", "DEICTIC", "EMBLEM", "ICONIC", "METAPHORIC"})
@@ -32,27 +40,16 @@ _LEXEMES: Final = {
 }
 """Types of SmartBody's gesture maps (BehaviorSetGestures), and the lexemes here that are most like their clips."""
 _CLIP: Final = f"{{{BMLT}}}keyframe"
-_OF_CLIPS: Final = (
-    "style",
-    "emotion",
-    "overlay",
-    "prestroke_hold_idlemotion",
-    "poststroke_hold_idlemotion",
-    "x",
-    "y",
-    "z",
-)
-"""Attributes for the choice, the combination and the mixture of clips."""
-_AS_HERE: Final = {
-    "additive": "false",
-    "overlay": "false",
-    "loop": "false",
-    "mode": "schedule",
-    "blend-mode": "overwrite",
-    "wrap-mode": "once",
-    "schedule-mode": "now",
-}
+_OF_CLIPS: Final = ("style", "emotion", "overlay", "prestroke_hold_idlemotion", "poststroke_hold_idlemotion")
+"""Attributes for the choice of clips, and for tracks of motion."""
+_AS_HERE: Final = {"overlay": "false", "mode": "schedule", "schedule-mode": "now"}
 """Attributes of clips, and the values with which they ask for what happens here anyway."""
+_ANIMATION: Final = "animation"
+"""The clips that are played once by default; states and blends are loops."""
+_AXES: Final = "xyz"
+"""Parameters of blends."""
+_FARTHEST: Final = 1e6
+_LONGEST: Final = 600.0
 _SPEEDS: Final = (0.05, 20.0)
 _EARLY_POINTS: Final = ("ready", "stroke_start", "strokeStart", "stroke")
 _HOLDS: Final = {"prestroke_hold": ("ready", "strokeStart"), "poststroke_hold": ("strokeEnd", "relax")}
@@ -62,7 +59,9 @@ _LONGEST_HOLD: Final = 60.0
 def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
     """Rewrites a gesture, in place, and returns the faults of what is left out."""
     _start_as_early_as_possible(tree)
-    faults = left_out(tree, source, *_OF_CLIPS)
+    if "name" in tree.attrib:
+        _mix(tree, source)
+    faults = left_out(tree, source, *_OF_CLIPS, *_AXES)
     if "name" in tree.attrib:
         drop(tree, "lexeme", "type", "mode")
         tree.tag = _CLIP
@@ -78,7 +77,7 @@ def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites an animation, a state or a blend, in place: the clip of its name is played once, from its start on."""
+    """Rewrites an animation, a state or a blend, in place: the clip, or the mix of clips, of its name."""
     _start_as_early_as_possible(tree)
     speed = take_number(tree, "speed", source, *_SPEEDS)
     if speed is not None and speed != 1.0:
@@ -86,9 +85,34 @@ def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
     for name, value in _AS_HERE.items():
         if value in {tree.get(name, "").lower(), tree.get(f"{{{SBM}}}{name}", "").lower()}:
             drop(tree, name)
+    duration = take_number(tree, "duration", source, -1.0, _LONGEST)
+    if duration is not None and duration > 0.0:
+        tie(tree, "end", "start", duration)
+    if _loops(tree):
+        set_parameter(tree, "loop", "true", source)
+    _mix(tree, source)
     faults = left_out(tree, source, *_OF_CLIPS, "loop", "mode")
     tree.tag = _CLIP
     return faults
+
+
+def _loops(tree: Tree) -> bool:
+    """Removes what says whether a clip is played over and over, as states and blends are by default."""
+    wrap, loop = take(tree, "wrap-mode").lower(), take(tree, "loop").lower()
+    if wrap or loop:
+        return wrap == "loop" or loop == "true"
+    return name_of(tree) != _ANIMATION and not set(OTHER_POINTS).intersection(tree.keys())
+
+
+def _mix(tree: Tree, source: BlockSource) -> None:
+    """Makes parameters of what says how clips are mixed, and whether they are added to other motion."""
+    mode, additive = take(tree, "blend-mode").lower(), take(tree, "additive").lower()
+    if mode == "additive" or additive not in ("", "false"):
+        set_parameter(tree, "additive", "true", source)
+    for name in _AXES:
+        value = take_number(tree, name, source, -_FARTHEST, _FARTHEST)
+        if value is not None:
+            set_parameter(tree, name, f"{value:g}", source)
 
 
 def _start_as_early_as_possible(tree: Tree) -> None:

@@ -45,9 +45,49 @@ def test_what_names_a_clip_plays_it(written: str) -> None:
     assert clip.animation == "Brad@Chop"
 
 
-def test_the_mixture_of_a_blend_is_told() -> None:
-    (sentence,) = told('<blend name="step" x="1" y="0" sbm:wrap-mode="Once"/>')
-    assert sentence == "x, y of SmartBody has no effect on <blend> here"
+def test_the_mixture_of_a_blend_is_a_parameter() -> None:
+    assert only('<blend name="step" x="1" y="-0.5" sbm:wrap-mode="Once"/>').parameters == {"x": "1", "y": "-0.5"}
+    assert only('<gesture name="step" x="0.2"/>').parameters == {"x": "0.2"}
+    (sentence,) = told('<blend name="step" x="far"/>')
+    assert sentence == "x='far' of <blend>: not a finite number"
+
+
+@pytest.mark.parametrize(
+    ("written", "loops"),
+    [
+        ('<blend name="step"/>', True),
+        ('<sbm:states name="step" sbm:schedule-mode="Now"/>', True),
+        ('<blend name="step" sbm:wrap-mode="Once"/>', False),
+        ('<blend name="step" stroke="2"/>', False),
+        ('<animation name="step"/>', False),
+        ('<animation name="step" loop="true"/>', True),
+        ('<sbm:animation name="step" sbm:wrap-mode="Loop"/>', True),
+        ('<states name="step" loop="false"/>', False),
+    ],
+)
+def test_states_and_blends_are_loops_unless_they_ask_for_one_round(written: str, loops: bool) -> None:
+    clip = only(written)
+    assert clip.parameters == ({"loop": "true"} if loops else {})
+    assert clip.persistent is loops
+
+
+def test_a_loop_with_a_duration_or_an_end_does_not_persist() -> None:
+    assert str(only('<blend id="b" name="step" sbm:duration="2.5"/>').syncs["end"]) == "b:start+2.5"
+    assert not only('<blend name="step" sbm:duration="2.5"/>').persistent
+    assert not only('<animation name="step" loop="true" end="4"/>').persistent
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        '<animation name="sway" sbm:additive="true"/>',
+        '<sbm:animation name="sway" additive="true"/>',
+        '<blend name="sway" sbm:wrap-mode="once" sbm:blend-mode="Additive"/>',
+        '<gesture name="sway" sbm:additive="true"/>',
+    ],
+)
+def test_a_clip_may_be_added_to_other_motion(written: str) -> None:
+    assert only(written).parameters == {"additive": "true"}
 
 
 def test_a_gesture_with_its_stroke_at_0_starts_as_early_as_possible() -> None:
@@ -60,7 +100,7 @@ def test_a_gesture_with_its_stroke_at_0_starts_as_early_as_possible() -> None:
     [
         '<animation name="Brad@Chop" loop="false" overlay="false" sbm:additive="false" speed="1.0"/>',
         '<blend name="Brad@Chop" mode="schedule" sbm:wrap-mode="Once" sbm:blend-mode="Overwrite"/>',
-        '<sbm:states name="Brad@Chop" sbm:schedule-mode="Now"/>',
+        '<sbm:states name="Brad@Chop" sbm:schedule-mode="Now" sbm:wrap-mode="Once"/>',
     ],
 )
 def test_what_asks_for_how_clips_play_anyway_is_not_told(as_here: str) -> None:
@@ -70,8 +110,8 @@ def test_what_asks_for_how_clips_play_anyway_is_not_told(as_here: str) -> None:
 
 
 def test_what_clips_cannot_do_is_told() -> None:
-    (sentence,) = told('<animation name="Brad@Chop" loop="true" sbm:additive="true" overlay="false"/>')
-    assert sentence == "loop, sbm:additive of SmartBody has no effect on <animation> here"
+    (sentence,) = told('<blend name="step" mode="update" sbm:schedule-mode="Queued" sbm:partial-joint="spine1"/>')
+    assert sentence == "mode, sbm:schedule-mode, sbm:partial-joint of SmartBody has no effect on <blend> here"
 
 
 def test_an_animation_has_a_speed() -> None:

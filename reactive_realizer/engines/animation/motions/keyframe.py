@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache, partial
 from pathlib import Path
 
+from reactive_realizer.binding.asset_file import parse_boolean
 from reactive_realizer.bml.extensions import Keyframe
 from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.embodiment.body import Body
@@ -15,13 +16,17 @@ from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import NoGroup, NoJoints
 from reactive_realizer.engines.animation.inertialization import InertializedStart, start_duration
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
+from reactive_realizer.engines.animation.keyframe.blend_files import AXES, BLEND, BlendFile, read_blend
+from reactive_realizer.engines.animation.keyframe.blend_space import BlendSpace
 from reactive_realizer.engines.animation.keyframe.clip import Clip
 from reactive_realizer.engines.animation.keyframe.clip_durations import shortest_clip_parts
 from reactive_realizer.engines.animation.keyframe.clip_files import CLIPS, load_clip, preload_clip
+from reactive_realizer.engines.animation.keyframe.clip_mix import ClipMix, relative, seamless
 from reactive_realizer.engines.animation.keyframe.keyframe_files import read_interpolator_text
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import (
+    ANY_VALUE,
     FILE_PARAMETERS,
     Moment,
     MotionPose,
@@ -30,6 +35,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     ordered,
     resources_used,
 )
+from reactive_realizer.engines.animation.motions.blend import BlendMotionUnit
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.planunit.parameter import Range
 
@@ -42,8 +48,15 @@ GROUP = "group"
 SPEED = "speed"
 """Parameter for the speed at which it plays by default, 1 for that of the file."""
 
+LOOP, ADDITIVE = "loop", "additive"
+"""Parameters for whether it is played over and over until its end, and whether it is added to other motion."""
+
 FADE_IN, FADE_OUT = "fadeIn", "fadeOut"
 """Parameters for the shares of its duration in which its weight rises and falls."""
+
+
+FIXED = FILE_PARAMETERS | {FILTER, GROUP, SPEED, LOOP, ADDITIVE, FADE_IN, FADE_OUT}
+"""Parameters that are read when a motion is made."""
 
 
 class KeyframeMotionUnit(MotionUnit):
@@ -54,7 +67,7 @@ class KeyframeMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.FULL_BODY
-    fixed = FILE_PARAMETERS | {FILTER, GROUP, SPEED, FADE_IN, FADE_OUT}
+    fixed = FIXED
     predictability = Predictability.ALWAYS
 
     def __init__(
@@ -127,16 +140,42 @@ class KeyframeMaker:
     """Makes motions of keyframes in BML or in files.
 
     Parameters are `mirror`, then `joints`, a selection (thesis C.1.2), or `group`; `filter`, a low-pass, Hz (3.2.2.2);
-    `speed`, `fadeIn` and `fadeOut`.
+    `speed`, `fadeIn` and `fadeOut`; `loop` and `additive`; and those of a blend, `x`, `y` and `z`.
     """
 
     def __init__(self, context: MakerContext) -> None:
         self._context = context
         self._skeleton = context.humanoid.avatar.skeleton
 
-    def __call__(self, request: MotionRequest) -> KeyframeMotionUnit:
+    def __call__(self, request: MotionRequest) -> KeyframeMotionUnit | BlendMotionUnit:
         """Make a motion."""
-        clip = self._clip(request)
+        values = parameter_values(request.parameters, _RANGES)
+        fades = values.get(FADE_IN, 0.0), values.get(FADE_OUT, 0.0)
+        speed, rest = values.get(SPEED, 1.0), self._context.rest.body
+        loops, adds = (parse_boolean(name, request.parameters.get(name, "false")) for name in (LOOP, ADDITIVE))
+        blend = self._blend(request)
+        if blend is None and not loops and not adds:
+            clip, lacking = self._fitted(self._clip(request), request)
+            return KeyframeMotionUnit(clip, rest, lacking, fades, speed)
+        clips = [self._clip(request)] if blend is None else [self._loaded(file, request) for file in blend.files]
+        fitted = [self._fitted(clip, request) for clip in clips]
+        changed = [_changed(clip, loops=loops, adds=adds) for clip, _ in fitted]
+        space = BlendSpace([()]) if blend is None else blend.space
+        return BlendMotionUnit(
+            ClipMix.of(changed, None if blend is None else blend.marks(changed)),
+            space,
+            rest,
+            _place(request, space),
+            loops=loops,
+            adds=adds,
+            speed=speed,
+            fades=fades,
+            fixed=FIXED,
+            lacking=frozenset().union(*(lacking for _, lacking in fitted)),
+        )
+
+    def _fitted(self, clip: Clip, request: MotionRequest) -> tuple[Clip, frozenset[str]]:
+        """Return a clip as it is requested, for the joints that the figure has, and the joints that are lacking."""
         clip = clip.mirrored() if request.mirror else clip
         chosen = request.joints or self._group(request, clip)
         clip, lacking = clip.only(chosen), chosen.difference(clip.joints)
@@ -147,9 +186,7 @@ class KeyframeMaker:
             raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element=request.behavior.name))
         if lacking:
             _log_once(clip.name, ", ".join(sorted(lacking)))
-        values = parameter_values(request.parameters, _RANGES)
-        fades = values.get(FADE_IN, 0.0), values.get(FADE_OUT, 0.0)
-        return KeyframeMotionUnit(clip.only(there), self._context.rest.body, lacking, fades, values.get(SPEED, 1.0))
+        return clip.only(there), lacking
 
     def _group(self, request: MotionRequest, clip: Clip) -> frozenset[str]:
         """Return the joints of the clip that are in the requested group, by default all.
@@ -167,11 +204,22 @@ class KeyframeMaker:
 
     def preload(self, request: MotionRequest) -> Callable[[], object] | None:
         """Return the loading work; None for keyframes in BML, which are short."""
-        return (
-            None
-            if _inline_keyframes(request)
-            else partial(preload_clip, self._file(request), self._skeleton, _cutoff(request))
-        )
+        if _inline_keyframes(request):
+            return None
+        blend = self._blend(request)
+        files = [self._file(request)] if blend is None else map(self._context.asset, blend.files)
+        works = [partial(preload_clip, file, self._skeleton, _cutoff(request)) for file in files]
+        return lambda: [work() for work in works]
+
+    def _blend(self, request: MotionRequest) -> BlendFile | None:
+        """Return the blend that is requested, if it is one and not a clip."""
+        if _inline_keyframes(request):
+            return None
+        path = self._file(request)
+        return read_blend(path) if path.name.endswith(f".{BLEND}") else None
+
+    def _loaded(self, file: str, request: MotionRequest) -> Clip:
+        return load_clip(self._context.asset(file), self._skeleton, _cutoff(request))
 
     def _clip(self, request: MotionRequest) -> Clip:
         if inline := _inline_keyframes(request):
@@ -179,7 +227,20 @@ class KeyframeMaker:
         return load_clip(self._file(request), self._skeleton, _cutoff(request))
 
     def _file(self, request: MotionRequest) -> Path:
-        return self._context.file_of(request, *CLIPS)
+        return self._context.file_of(request, *CLIPS, BLEND)
+
+
+def _changed(clip: Clip, *, loops: bool, adds: bool) -> Clip:
+    clip = seamless(clip) if loops else clip
+    return relative(clip) if adds else clip
+
+
+def _place(request: MotionRequest, space: BlendSpace) -> dict[str, float]:
+    """Return the values of the parameters of a blend: without any, the place of its first motion; else 0 for others."""
+    axes = AXES[: space.size]
+    given = parameter_values(request.parameters, dict.fromkeys(axes, ANY_VALUE))
+    usual = dict.fromkeys(axes, 0.0) if given else dict(zip(axes, space.places[0], strict=True))
+    return usual | given
 
 
 @lru_cache
