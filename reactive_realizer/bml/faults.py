@@ -456,6 +456,19 @@ class NoCounterpart(Fault):
     attributes: tuple[str, ...]
 
 
+class LeftToPlugins(Fault):
+    """A constraint of SmartBody that only an engine of a plug-in could play."""
+
+    code = "left-to-plugins"
+    template = (
+        "a constraint of the {quantity} of {effector} is left to plug-ins: "
+        "here, constraints are of the place of a wrist, hand or finger, such as r_wrist"
+    )
+    warning = WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED
+    quantity: str
+    effector: str
+
+
 class UnknownReference(SchedulingFault):
     """A reference to a behavior that does not exist."""
 

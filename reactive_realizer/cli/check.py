@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
-from reactive_realizer.cli.output import print_problems
+from reactive_realizer.cli.output import complain_of_inputs, print_problems
 from reactive_realizer.cli.scene_options import add_file_options
 from reactive_realizer.realizer.document_checker import Findings
 from reactive_realizer.realizer.inputs import BmlText
@@ -27,9 +27,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """The exit status: 1 if there are mistakes, 2 if a file does not exist."""
-    missing = [str(path) for path in (*options.files, options.human) if not path.is_file()]
-    if missing:
-        print(f"no such file: {', '.join(missing)}", file=sys.stderr)
+    if complain_of_inputs([*options.files, options.human]):
         return 2
     return 1 if asyncio.run(_check(options)) else 0
 

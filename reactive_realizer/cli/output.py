@@ -56,6 +56,18 @@ class Explainer:
         self._blocks.append({**key._asdict(), "points": dict(points)})
 
 
+def complain_of_inputs(paths: Iterable[Path]) -> bool:
+    """Print to stderr which of these are folders, and which do not exist; return whether any is no file."""
+    wrong = [path for path in paths if not path.is_file()]
+    folders = [str(path) for path in wrong if path.is_dir()]
+    missing = [str(path) for path in wrong if not path.is_dir()]
+    if folders:
+        print(f"a folder, not a file: {', '.join(folders)}", file=sys.stderr)
+    if missing:
+        print(f"no such file: {', '.join(missing)}", file=sys.stderr)
+    return bool(wrong)
+
+
 def print_problems(path: Path, problems: Iterable[Problem], stream: TextIO) -> None:
     """Prints problems in the order of the document."""
     for line, column, sentence in sorted(map(_placed, problems), key=lambda placed: placed[:2]):

@@ -15,7 +15,7 @@ from typing import IO
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import Scene, open_scene
 from reactive_realizer.bml.sync_ref import NUMBER
-from reactive_realizer.cli.output import Explainer, FeedbackWriter, print_warning
+from reactive_realizer.cli.output import Explainer, FeedbackWriter, complain_of_inputs, print_warning
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.clock import Clock, ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
@@ -154,15 +154,15 @@ def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     """The exit status: 1 if a file could not be read, or a block was rejected or failed; 2 if a file does not exist."""
     _check_combination(parser, options)
     inputs = [options.replay] if options.replay else [*(entry.path for entry in options.items), options.human]
-    missing = [str(path) for path in inputs if not path.is_file()]
     outputs = [Path(name) for output in _OUTPUTS if (name := getattr(options, output))]
-    missing += [str(output.parent) for output in outputs if not output.parent.is_dir()]
+    missing = [str(output.parent) for output in outputs if not output.parent.is_dir()]
     folders = [str(output) for output in outputs if output.is_dir()]
     if folders:
         print(f"cannot write a file over a folder: {', '.join(folders)}", file=sys.stderr)
         return 2
     if missing:
-        print(f"no such file: {', '.join(missing)}", file=sys.stderr)
+        print(f"no such folder: {', '.join(missing)}", file=sys.stderr)
+    if complain_of_inputs(inputs) or missing:
         return 2
     return asyncio.run(_replay(options) if options.replay else _realize(options))
 

@@ -8,6 +8,7 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
+from reactive_realizer.cli.output import complain_of_inputs
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.punctual_loop import run_punctually
 from reactive_realizer.server.serve import ServerOptions, serve
@@ -70,8 +71,7 @@ def run(parser: argparse.ArgumentParser, options: argparse.Namespace) -> int:
     """The exit status: 2 if a file does not exist or cannot be written, or the address is in use."""
     if options.record_size < inf and options.record is None:
         parser.error("--record-size requires --record")
-    if not options.human.is_file():
-        print(f"no such file: {options.human}", file=sys.stderr)
+    if complain_of_inputs([options.human]):
         return 2
     logging.getLogger().setLevel(logging.INFO)
     try:

@@ -7,7 +7,7 @@ from pathlib import Path
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.bml.block_writer import document
 from reactive_realizer.bml.dialects import Dialects
-from reactive_realizer.cli.output import print_problems
+from reactive_realizer.cli.output import complain_of_inputs, print_problems
 from reactive_realizer.limits import Limits
 
 
@@ -25,8 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """The exit status: 1 if a block is refused, 2 if the file does not exist."""
-    if not options.file.is_file():
-        print(f"no such file: {options.file}", file=sys.stderr)
+    if complain_of_inputs([options.file]):
         return 2
     dialects = Dialects({name: load("dialects", name) for name in names("dialects")})
     found = dialects.read(options.file.read_bytes(), Limits(), options.name)

@@ -176,4 +176,4 @@ def test_speech_is_heard_at_the_times_of_its_feedback(session: Session) -> None:
 
 def test_a_folder_that_does_not_exist_is_an_error(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["realize", bml(block("b")), "--audio", "nowhere/out.wav"]) == 2
-    assert "no such file: nowhere" in capsys.readouterr().err
+    assert "no such folder: nowhere" in capsys.readouterr().err

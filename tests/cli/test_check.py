@@ -360,3 +360,13 @@ def test_a_streamed_speech_is_checked_without_its_sound(bml: Callable[..., str])
     stream = "<stream xmlns='urn:reactive-realizer:1' name='x' rate='24000'/>"
     described = f'<text>Hello.</text><description priority="1" type="audio/x-stream">{stream}</description>'
     assert main(["check", bml(block("b", f'<speech id="s">{described}</speech>'))]) == 0
+
+
+@pytest.mark.parametrize("command", ["check", "realize", "translate"])
+def test_a_folder_in_the_place_of_a_file_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    assert main([command, str(tmp_path)]) == 2
+    assert capsys.readouterr().err == f"a folder, not a file: {tmp_path}\n"
+    assert main([command, str(tmp_path / "nothing.xml")]) == 2
+    assert capsys.readouterr().err == f"no such file: {tmp_path / 'nothing.xml'}\n"

@@ -24,7 +24,13 @@ from reactive_realizer.bml.smartbody.faces import adapt_face
 from reactive_realizer.bml.smartbody.gaze import adapt_gaze
 from reactive_realizer.bml.smartbody.gestures import adapt_clip, adapt_gesture
 from reactive_realizer.bml.smartbody.noise import adapt_noise
-from reactive_realizer.bml.smartbody.reaching import adapt_constraint, adapt_grab, adapt_reach, is_of_hand
+from reactive_realizer.bml.smartbody.reaching import (
+    adapt_constraint,
+    adapt_grab,
+    adapt_reach,
+    is_of_hand,
+    left_to_plugins,
+)
 from reactive_realizer.bml.smartbody.saccades import adapt_saccade
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 from reactive_realizer.errors import Fault
@@ -68,7 +74,7 @@ def adapt(tree: Tree, source: BlockSource) -> list[Fault]:
     rewrite = _REWRITES.get(name_of(tree))
     other = rewrite is None or (name_of(tree) == _CONSTRAINT and not is_of_hand(tree))
     if other and namespace_of(tree) == SBM:
-        return []
+        return [] if rewrite is None else left_to_plugins(tree, source)
     if namespace_of(tree) == SBM:
         tree.tag = name_of(tree)
     drop(tree, *WITHOUT_EFFECT)

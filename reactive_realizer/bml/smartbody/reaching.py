@@ -4,7 +4,8 @@ from typing import Final
 
 from reactive_realizer.bml.behaviors import REACH
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.names import OWN
+from reactive_realizer.bml.faults import LeftToPlugins
+from reactive_realizer.bml.names import OWN, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     OTHER_POINTS,
     drop,
@@ -16,14 +17,17 @@ from reactive_realizer.bml.smartbody.attributes import (
     take_number,
     tie,
 )
-from reactive_realizer.bml.smartbody.joints import target_named
+from reactive_realizer.bml.smartbody.joints import joint_named, target_named
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.vocabulary import Mode, Reach
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, quoted
 
 _ACTIONS: Final = {"touch": Reach.TOUCH, "pick-up": Reach.TAKE, "put-down": Reach.PUT}
 _POINTS: Final = "point-at"
 _HANDS: Final = {"left": Mode.LEFT_HAND, "l": Mode.LEFT_HAND, "right": Mode.RIGHT_HAND, "r": Mode.RIGHT_HAND}
+_OF_HANDS: Final = ("wrist", "hand", "thumb", "index", "middle", "ring", "pinky")
+"""Beginnings of the names of joints that a constraint moves by the hand."""
+_PLACE: Final = "pos"
 _HOLD: Final = "postStrokeHoldDuration"
 _LONGEST: Final = 600.0
 _MOMENT: Final = "0.1"
@@ -78,16 +82,28 @@ def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
 
 def is_of_hand(constraint: Tree) -> bool:
     """Return whether a constraint of SmartBody keeps a hand at a place."""
-    side, _, joint = constraint.get("effector", "").partition("_")
-    kind = constraint.get("{urn:smartbody}constraint-type", "pos")
-    return side in _HANDS and joint.startswith(("wrist", "hand", "index", "middle")) and kind.lower() == "pos"
+    side, _, joint = joint_named(constraint.get("effector", "")).partition("_")
+    return side in _HANDS and joint.startswith(_OF_HANDS) and _kind(constraint) == _PLACE
+
+
+def left_to_plugins(constraint: Tree, source: BlockSource) -> list[Fault]:
+    """The fault of a constraint that keeps something else, or keeps a hand turned."""
+    kind, effector = _kind(constraint), constraint.get("effector", "").strip()
+    quantity = "place" if kind == _PLACE else f"'{quoted(kind)}'"
+    named = f"'{quoted(effector)}'" if effector else "no effector"
+    return [source.located(constraint, LeftToPlugins(quantity=quantity, effector=named))]
+
+
+def _kind(constraint: Tree) -> str:
+    """What a constraint keeps: the place of its effector or, with other words, its rotation, or both."""
+    return str(constraint.get(f"{{{SBM}}}constraint-type", constraint.get("constraint-type", _PLACE))).lower()
 
 
 def _choose_hand(tree: Tree, *attributes: str) -> None:
     """Writes the hand that the first of some attributes names, by its side or by a joint such as ``r_wrist``."""
     for name in reversed(attributes):
         named = take(tree, name)
-        hand = _HANDS.get(named.lower().partition("_")[0])
+        hand = _HANDS.get(joint_named(named).lower().partition("_")[0])
         if hand is not None:
             tree.set("mode", hand)
         elif named:

@@ -6,7 +6,7 @@ from reactive_realizer.bml.behaviors import REACH, Locomotion, Pointing, Wait
 from reactive_realizer.bml.release import Release
 from reactive_realizer.bml.vocabulary import Mode
 
-from .reading import behaviors, only, told
+from .reading import behaviors, only, read, told
 
 
 def test_a_way_has_a_speed_a_distance_and_a_direction_to_face() -> None:
@@ -75,8 +75,29 @@ def test_a_constraint_of_a_wrist_touches_its_target_with_that_hand() -> None:
     }
 
 
-def test_a_constraint_of_a_foot_stays_for_engines_of_plug_ins() -> None:
-    assert only('<sbm:constraint effector="l_forefoot" target="box"/>').namespace == "urn:smartbody"
+@pytest.mark.parametrize(("effector", "mode"), [("JtWristRt", Mode.RIGHT_HAND), ("l_thumb3", Mode.LEFT_HAND)])
+def test_a_constraint_may_name_a_joint_of_a_hand_in_any_skeleton_of_smartbody(effector: str, mode: Mode) -> None:
+    touch = only(f'<sbm:constraint effector="{effector}" target="box"/>')
+    assert isinstance(touch, Pointing)
+    assert touch.mode is mode
+
+
+@pytest.mark.parametrize(
+    ("written", "what"),
+    [
+        ('effector="l_forefoot"', "the place of 'l_forefoot'"),
+        ('effector="tail"', "the place of 'tail'"),
+        ("", "the place of no effector"),
+        ('effector="r_wrist" sbm:constraint-type="rot"', "the 'rot' of 'r_wrist'"),
+    ],
+)
+def test_a_constraint_of_something_else_stays_for_engines_of_plug_ins_and_is_told(written: str, what: str) -> None:
+    constraint = f'<sbm:constraint {written} target="box"/>'
+    (sentence,) = told(constraint)
+    assert sentence.startswith(f"a constraint of {what} is left to plug-ins: here, constraints are of the place of a")
+    block = read(f"<act><bml>{constraint}</bml></act>").block
+    assert block is not None
+    assert [each.namespace for each in block.behaviors] == ["urn:smartbody"]
 
 
 def test_a_reach_may_walk_to_its_target_first() -> None:
