@@ -71,6 +71,8 @@ REFUSED = [
     ("", "bml", "PARSING_FAILURE", "no bml block"),
     (b"\x00\xff\xfe\x01", "bml", "PARSING_FAILURE", ""),
     ('<bml id="b" characterId="carol"/>', "b", "NO_SUCH_TARGET", "alice"),
+    ('<bml id="b" character="Prudence"/>', "b", "NO_SUCH_TARGET", "no character 'Prudence'"),
+    ('<act><bml id="b" agent="Poppy"/></act>', "b", "NO_SUCH_TARGET", "no character 'Poppy'"),
 ]
 
 
