@@ -261,6 +261,14 @@ class NoGroup(CreationFault):
     known: tuple[str, ...]
 
 
+class NoGroupJoints(CreationFault):
+    """A goal of joints that a figure does not have."""
+
+    code = "no-group-joints"
+    template = "this character has none of the joints of {group}"
+    group: str
+
+
 class GoalOverruled(CreationFault):
     """A goal of a key pose beside others of its kind that count."""
 

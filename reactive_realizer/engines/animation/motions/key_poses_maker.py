@@ -8,6 +8,7 @@ from typing import NamedTuple
 from reactive_realizer.bml.key_poses import KeyPose, KeyPoses, LookAtGoal, OrientationGoal
 from reactive_realizer.bml.time_warps import warped
 from reactive_realizer.bml.vocabulary import BodyGroup
+from reactive_realizer.embodiment.joints import EYES
 from reactive_realizer.engines.animation.easing import minimum_jerk
 from reactive_realizer.engines.animation.faults import NoGoals, WrongElement
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
@@ -127,7 +128,9 @@ class KeyPosesMaker:
         if not keys:
             raise _none(goals)
         rest = self._context.rest.body
-        return EyeKeysMotionUnit(behavior, keys, frozenset(group_joints(behavior.group, rest.skeleton)), rest)
+        motion = EyeKeysMotionUnit(behavior, keys, frozenset(group_joints(behavior.group, rest.skeleton)), rest)
+        motion.lacking = frozenset(EYES if behavior.group is BodyGroup.EYES else ()).difference(rest.skeleton.joints)
+        return motion
 
 
 def _none(goals: PoseGoals) -> RealizerError:

@@ -13,7 +13,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.joints import HEAD, other_side
 from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply, rotate
 from reactive_realizer.embodiment.vector import FORWARD, Vec3, add, length, subtract, unit
-from reactive_realizer.engines.animation.faults import GoalOverruled, NoDirection, NotOfGroup
+from reactive_realizer.engines.animation.faults import GoalOverruled, NoDirection, NoGroupJoints, NotOfGroup
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, hand_axes
 from reactive_realizer.engines.animation.key_poses.body_groups import group_joints
 from reactive_realizer.engines.animation.key_poses.direction import Direction
@@ -144,6 +144,7 @@ class PoseGoals:
             case LookAtGoal():
                 if self._group not in _LOOKING:
                     raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(_LOOKING)))
+                self._directed()
             case SwivelGoal():
                 if self._side is None:
                     raise RealizerError(NotOfGroup(goal=kind, group=self._group, known=tuple(_ARMS)))
@@ -155,7 +156,8 @@ class PoseGoals:
                 if goal.axis not in self._axes:
                     known = tuple(self._axes) or ("the axes of an arm, a head, a trunk, shoulders or eyes",)
                     raise RealizerError(NotOfGroup(goal=f"{kind} of {goal.axis}", group=self._group, known=known))
-                if goal.joint is not None and goal.joint not in (directed := self._directed()):
+                directed = self._directed()
+                if goal.joint is not None and goal.joint not in directed:
                     fault = NotOfGroup(goal=f"{kind} of {goal.joint}", group=self._group, known=directed)
                     raise RealizerError(fault)
                 if length(goal.direction) < _SHORTEST:
@@ -175,10 +177,17 @@ class PoseGoals:
         return HEAD_AXES if self._group in WEIGHTS else {}
 
     def _directed(self) -> tuple[str, ...]:
-        """Return the joints of the group that may have directions."""
+        """Return the joints of the group that may have directions.
+
+        Raises:
+            RealizerError: "no-group-joints": the figure has none of them.
+        """
         if self._side is not None:
             return (f"{self._side}_wrist",)
-        return HEAD[1:] if self._group in WEIGHTS else group_joints(self._group, self._skeleton)
+        joints = HEAD[1:] if self._group in WEIGHTS else group_joints(self._group, self._skeleton)
+        if not joints:
+            raise RealizerError(NoGroupJoints(group=self._group))
+        return joints
 
     def _check_joint(self, joint: str | None) -> None:
         if joint is not None and (
@@ -246,7 +255,8 @@ class PoseGoals:
             if goal.joint is not None:
                 ways[goal.joint[0]] = (x, y, z)
             else:
-                ways |= {"l": (x, y, z), "r": (-x, y, z)}
+                both = {"l": (x, y, z), "r": (-x, y, z)}
+                ways |= {joint[0]: both[joint[0]] for joint in group_joints(self._group, self._skeleton)}
         return ShoulderPose(ways)
 
 
