@@ -252,7 +252,7 @@ this table causes a warning.
 | `<lips>`, `<curves>` | left out with one warning: the lips follow the sound |
 | `synchronize ref="..."` | an additional `sync` in it |
 | `event message="NAME content" stroke="..."` | `bmla:emit event="NAME" start="..."` with the content |
-| other elements and attributes of SmartBody | [see there](dialects.md#smartbody) |
+| other elements and attributes of SmartBody | [see there](smartbody.md#how-everything-is-read) |
 | `stroke_start`, `stroke_end` | `strokeStart`, `strokeEnd` |
 | names of elements in capital letters, or of Greta's namespaces | in lowercase, without a namespace |
 
