@@ -315,6 +315,8 @@ def _murml() -> str:
         ("distance of a `HandLocation`", "lengths of the arm, ahead", symbols.distances),
         ("`distance` of a movement", "lengths of the arm", symbols.ways),
         ("`extent` of a curve", "lengths of its chord", symbols.extents),
+        ("`roundness` of a curve", "-1 broad, 1 pointed", symbols.roundnesses),
+        ("`skewedness` of a curve", "-1 highest toward its start, 1 toward its end", symbols.skewednesses),
         ("`HandShape`", "stored pose", symbols.hand_shapes),
     )
     listed = (

@@ -143,6 +143,50 @@ async def test_a_hand_moves_on_a_line_or_on_a_curve(
         assert np.abs(path[:, 1] - 0.15).max() < 0.004
 
 
+async def curve(open_still: OpenStill, shape: str, *more: tuple[str, str]) -> np.ndarray:
+    """The way of a hand through a curve: ahead and to the left, in lengths of its chord."""
+    ends = (("start", "-0.25 0.15 0.15"), ("end", "-0.25 0.15 0.35"))
+    form = (("normal", "DirU"), ("extent", "Normal"), ("shape", shape))
+    async with open_still() as pilot:
+        await played(pilot, dynamic("HandLocation", *ends, *form, *more, kind="curve"))
+        assert pilot.feedback.warnings == []
+        first, last = (round(FRAMES * time(pilot, point)) + 1 for point in ("strokeStart", "strokeEnd"))
+        path = np.array([wrist(body) for body in pilot.bodies()[first:last]])
+        return np.stack([path[:, 2] - 0.15, path[:, 0] + 0.25], axis=1) / 0.2
+
+
+def top(way: np.ndarray) -> float:
+    """Where a curve is highest, along its chord."""
+    return float(way[way[:, 1].argmax(), 0])
+
+
+def breadth(way: np.ndarray) -> float:
+    """How much of its chord a curve is above three quarters of its height."""
+    high = way[way[:, 1] > 0.75 * way[:, 1].max(), 0]
+    return float(high.max() - high.min())
+
+
+async def test_a_curve_is_broad_or_pointed(open_still: OpenStill) -> None:
+    sharp, usual, broad = [
+        breadth(await curve(open_still, "LeftC", *more))
+        for more in ((("roundness", "Sharp"),), (), (("roundness", "Broad"),))
+    ]
+    assert sharp < 0.25 < 0.4 < usual < 0.55 < 0.7 < broad
+
+
+async def test_a_curve_is_highest_toward_its_start_or_its_end(open_still: OpenStill) -> None:
+    early, usual, late = [
+        top(await curve(open_still, "LeftC", *more))
+        for more in ((("skewedness", "FunnelS"),), (), (("skewedness", "0.8"),))
+    ]
+    assert early < 0.35 < 0.45 < usual < 0.55 < 0.65 < late
+
+
+async def test_one_half_of_a_double_curve_is_lower(open_still: OpenStill) -> None:
+    way = await curve(open_still, "LeftS", ("skewedness", "FunnelE"))
+    assert way[:, 1].max() < 0.75 * -way[:, 1].min()
+
+
 @pytest.mark.parametrize("avatar", AVATARS)
 async def test_two_hands_are_mirrored(open_still: OpenStill, avatar: str) -> None:
     moved = dynamic(

@@ -229,6 +229,26 @@ FAULTY: Iterable[tuple[str, str]] = (
 )
 
 
+CURVE = """<dynamic slot="HandLocation"><dynamicElement type="curve"><value type="start" name="0 0 1"/>
+<value type="end" name="0 0 2"/><value type="normal" name="DirU"/><value type="{}" name="{}"/>
+</dynamicElement></dynamic>"""
+
+
+@pytest.mark.parametrize(
+    ("form", "text", "told"),
+    [
+        ("roundness", "Round", "roundness has no Round; it has Sharp, Normal, Broad"),
+        ("skewedness", "1.5", "skewedness '1.5': it must be from -1 to 1"),
+        ("extent", "-0.2", "extent '-0.2': it must not be below 0"),
+    ],
+)
+def test_a_form_that_a_curve_cannot_have_is_named(form: str, text: str, told: str) -> None:
+    behavior, problems = read(f"<parallel>{LEFT}{CURVE.format(form, text)}</parallel>")
+    assert isinstance(behavior, MurmlGesture)
+    assert [told in each.fault.sentence for each in problems] == [True]
+    assert [each.fault.line for each in problems] == [4]
+
+
 MOVE = '<value type="start" name="0 0 1"/><value type="direction" name="DirU"/>'
 DOUBLED: Iterable[tuple[str, str]] = (
     (static("0 0 2"), "HandLocation of right_arm is given twice; where both have a value, this one counts"),

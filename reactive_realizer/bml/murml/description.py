@@ -147,11 +147,15 @@ class Bend:
         normal: of its plane, in the figure's axes, of any length above 0.
         height: in lengths of the chord; positive to the left of the way, seen from the tip of the normal.
         double: whether it is an S, whose second half is bent to the other side, and not a C.
+        roundness: 1 if it is pointed, 0 if it is round, -1 if it is broad.
+        skewedness: where a C is highest, and which half of an S is higher: from -1, toward the start, to 1.
     """
 
     normal: Coordinates
     height: float
     double: bool
+    roundness: float = 0.0
+    skewedness: float = 0.0
 
     def mirrored(self, mirror: Mirror) -> "Bend":
         """The curve of the other hand."""

@@ -25,7 +25,7 @@ from reactive_realizer.bml.murml.faults import (
     UnknownSymbol,
 )
 from reactive_realizer.bml.murml.frames import read_keyframing
-from reactive_realizer.bml.murml.symbols import SYMBOLS, direction_of, number_of, value_of
+from reactive_realizer.bml.murml.symbols import SYMBOLS, degree_of, direction_of, number_of, value_of
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError, quoted
@@ -309,9 +309,6 @@ class MurmlReader:
             self._note(tree, UnknownSymbol(slot=f"type of {_ELEMENT}", symbol=quoted(kind), known=_TYPES))
         if kind != "curve":
             return None
-        for name in ("roundness", "skewedness"):
-            if name in values:
-                self._leave_out(values[name], name, "curves are symmetrical")
         if "normal" not in values:
             missing = MissingMurmlValue(slot="type curve", values="a value of the type normal; it is straight now")
             self._note(tree, missing)
@@ -330,7 +327,15 @@ class MurmlReader:
                     self._at(values["shape"], UnknownSymbol(slot="shape", symbol=quoted(shape), known=known))
                 )
         side, double = _CURVES[shape]
-        return Bend(axis, side * extent, double)
+        roundness = self._degree(values, "roundness", SYMBOLS.roundnesses)
+        return Bend(axis, side * extent, double, roundness, self._degree(values, "skewedness", SYMBOLS.skewednesses))
+
+    def _degree(self, values: Mapping[str, Tree], name: str, symbols: Mapping[str, float]) -> float:
+        """The roundness or skewedness of a curve; 0 if it has none."""
+        written = values.get(name)
+        if written is None:
+            return 0.0
+        return self._located(written, lambda: degree_of(name, written.get("name", ""), symbols))
 
     # --- attributes
 

@@ -44,6 +44,8 @@ class Symbols:
         distances: of locations, in lengths of the arm.
         ways: lengths of movements, in lengths of the arm.
         extents: heights of curves, in lengths of their chords.
+        roundnesses: of curves, -1 to 1.
+        skewednesses: of curves, -1 to 1.
         hand_shapes: names of stored poses.
     """
 
@@ -52,6 +54,8 @@ class Symbols:
     distances: Mapping[str, float]
     ways: Mapping[str, float]
     extents: Mapping[str, float]
+    roundnesses: Mapping[str, float]
+    skewednesses: Mapping[str, float]
     hand_shapes: Mapping[str, str]
 
 
@@ -103,13 +107,30 @@ def number_of(slot: str, text: str, symbols: Mapping[str, float]) -> float:
     Raises:
         RealizerError: it is neither, or below 0.
     """
+    number = _known_number(slot, text, symbols)
+    if number < 0.0:
+        raise _bad(slot, text, "it must not be below 0")
+    return number
+
+
+def degree_of(slot: str, text: str, symbols: Mapping[str, float]) -> float:
+    """The number from -1 to 1 that a text or a symbol denotes.
+
+    Raises:
+        RealizerError: it is neither.
+    """
+    number = _known_number(slot, text, symbols)
+    if abs(number) > 1.0:
+        raise _bad(slot, text, "it must be from -1 to 1")
+    return number
+
+
+def _known_number(slot: str, text: str, symbols: Mapping[str, float]) -> float:
     if text in symbols:
         return symbols[text]
     number = _number(text)
     if number is None:
         raise RealizerError(UnknownSymbol(slot=slot, symbol=quoted(text), known=tuple(symbols)))
-    if number < 0.0:
-        raise _bad(slot, text, "it must not be below 0")
     return number
 
 

@@ -9,11 +9,15 @@ from typing import Generic, TypeVar
 from reactive_realizer.bml.murml.description import Bend
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import Vec3, add, cross, length, scale, subtract, unit
+from reactive_realizer.engines.animation.easing import smoothstep
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals
 from reactive_realizer.engines.animation.key_poses.direction import Direction
 from reactive_realizer.engines.animation.key_poses.solved_pose import SolvedPose
 
 T = TypeVar("T")
+
+_STEEPEST = 0.95
+"""Limit of the change of speed along the chord of a curve, relative to its mean."""
 
 _OPPOSITE = 1e-3
 """The sum of two directions that is shorter has no direction of its own."""
@@ -58,11 +62,30 @@ def place_course(positions: Sequence[float], places: Sequence[Vec3], bends: Sequ
 
 def _bent(start: Vec3, goal: Vec3, done: float, bend: Bend | None) -> Vec3:
     chord = subtract(goal, start)
-    place = add(start, scale(chord, done))
     if bend is None or length(chord) < _OPPOSITE:
-        return place
+        return add(start, scale(chord, done))
+    along, aside = curve(done, bend)
     side = cross(unit(bend.normal), chord)
-    return add(place, scale(side, bend.height * math.sin((2.0 if bend.double else 1.0) * math.pi * done)))
+    return add(add(start, scale(chord, along)), scale(side, bend.height * aside))
+
+
+def curve(done: float, bend: Bend) -> tuple[float, float]:
+    """Return a point of a curve after a share of its way: along its chord, 0 to 1, and aside, -1 to 1.
+
+    The place aside is a sine. A curve becomes broad or pointed by the speed along the chord, which is then lower or
+    higher at its ends than where it is highest; a C becomes skewed in the same way.
+    """
+    turns = (2.0 if bend.double else 1.0) * math.pi
+    skew = 0.0 if bend.double else bend.skewedness
+    # Beyond this length of both together, the hand would go backward.
+    longest = max(1.0, math.hypot(bend.roundness, skew) / _STEEPEST)
+    broad, later = -bend.roundness / longest, skew / longest
+    angle = 2.0 * turns * done
+    along = done - (broad * math.sin(angle) - later * (1.0 - math.cos(angle))) / (2.0 * turns)
+    aside = math.sin(turns * done)
+    if bend.double:  # one half of an S is lower
+        aside *= 1.0 - 0.5 * abs(bend.skewedness) * smoothstep(1.0 - done if bend.skewedness > 0.0 else done)
+    return along, aside
 
 
 def direction_course(positions: Sequence[float], directions: Sequence[Vec3]) -> Course[Vec3]:
