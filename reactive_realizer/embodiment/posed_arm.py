@@ -251,10 +251,9 @@ class PosedArm(NamedTuple):
             return self
         back, upper, lower = conjugate(self.above), self.links.upper, self.links.lower
         goal = rotate(back, subtract(add(self.wrist, shift.wrist), self.start))
-        elbow = multiply(_bend(upper, rotate(self.elbow, lower), length(goal)), self.elbow)
-        way, reached = unit(goal), rotate(self.shoulder, add(upper, rotate(elbow, lower)))
-        shoulder = multiply(between(unit(reached), way), self.shoulder)
+        shoulder, elbow = brought((upper, lower), (self.shoulder, self.elbow), goal)
         if shift.elbow != ZERO:
+            way = unit(goal)
             middle = rejected(rotate(shoulder, upper), way)
             moved = dot(rotate(back, shift.elbow), cross(way, middle))
             shoulder = multiply(from_axis_angle(way, moved / (dot(middle, middle) + _OFF_LINE**2)), shoulder)
@@ -266,6 +265,20 @@ class PosedArm(NamedTuple):
         wrist = add(middle, rotate(turn, self.links.lower))
         points = (*_along(middle, wrist), *(add(wrist, rotate(turn, point)) for point in self.hand))
         return self._replace(shoulder=shoulder, elbow=elbow, wrist=wrist, points=points)
+
+
+def brought(bones: tuple[Vec3, Vec3], turns: tuple[Quat, Quat], goal: Vec3) -> tuple[Quat, Quat]:
+    """Return the rotations of shoulder and elbow that bring a wrist to a goal, or nearly, by the smallest turns.
+
+    Args:
+        bones: from shoulder to elbow, and from elbow to wrist, m.
+        turns: the rotations now.
+        goal: from the shoulder, in the axes of what carries it, m.
+    """
+    (upper, lower), (shoulder, elbow) = bones, turns
+    elbow = multiply(_bend(upper, rotate(elbow, lower), length(goal)), elbow)
+    reached = rotate(shoulder, add(upper, rotate(elbow, lower)))
+    return multiply(between(unit(reached), unit(goal)), shoulder), elbow
 
 
 def _span(groups: Sequence[range], which: int) -> range:

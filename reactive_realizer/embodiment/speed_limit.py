@@ -7,7 +7,8 @@ from functools import lru_cache
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.feet import depth, drawn, feet, leg, soles, walks
 from reactive_realizer.embodiment.joints import EYES, HEAD, LOWER_BODY, ROOT, SIDES, TRUNK
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, difference, slerp
+from reactive_realizer.embodiment.posed_arm import brought
+from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, conjugate, difference, rotate, slerp
 from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, add, distance, dot, length, scale, subtract
 
 WRIST_SPEED = 2.4
@@ -19,8 +20,11 @@ WRIST_ACCELERATION = 37.5
 WRIST_BRAKE = 50.0
 """Limit for each wrist that has fallen behind and catches up, m/s^2: it slows down before it arrives."""
 
+WRIST_SWERVE = 55.0
+"""Limit for the change of the velocity of each wrist, m/s^2: one that turns back or aside is carried on for a while."""
+
 _JOINT_BRAKE = 200.0
-"""The same for the turn of a joint, rad/s^2."""
+"""Limit for the turn of each joint that has fallen behind and catches up, rad/s^2."""
 
 ROOT_SPEED = 2.0
 """Limit for the root, m/s: a brisk walk. Sitting down and standing up stay below 1 m/s."""
@@ -89,7 +93,8 @@ class SpeedLimit:
     No joint turns faster than its limit, no wrist moves faster than `WRIST_SPEED` or accelerates more than
     `WRIST_ACCELERATION`, and the root moves no faster than `ROOT_SPEED`. A faster pose is followed as fast as that
     allows; ordinary motion is not affected. What has fallen behind slows down before it arrives, by `WRIST_BRAKE` or
-    `_JOINT_BRAKE`, so it never overshoots.
+    `_JOINT_BRAKE`, so it does not overshoot. A wrist that should turn aside or back at once is carried on, so that its
+    velocity changes by no more than `WRIST_SWERVE`.
 
     If legs and root were limited separately, the feet would leave their places and go below the ground. So the knees
     bend or stretch for a root that lags behind; what they cannot compensate raises the figure, within the limit of the
@@ -136,6 +141,8 @@ class SpeedLimit:
             body = body.posed(
                 {j: slerp(self._shown.rotation(j), body.rotation(j), fraction) for j in self._arms[wrist]}
             )
+        for side, wrist in zip(SIDES, _WRISTS, strict=True):
+            body = self._carried_on(side, wrist, body, duration)
         body = self._on_its_feet(body, wanted, duration)
         places = {wrist: _from_root(wrist, body) for wrist in _WRISTS}
         self._velocities = {w: scale(subtract(at, self._places[w]), 1.0 / duration) for w, at in places.items()}
@@ -174,6 +181,25 @@ class SpeedLimit:
                 # A little less than in proportion: the path is an arc. This converges after a step or two.
                 return wrist, 0.995 * reach / moved
         return None
+
+    def _carried_on(self, side: str, wrist: str, body: Body, duration: float) -> Body:
+        """Return a body with one wrist as near to where it would be as the change of its velocity allows."""
+        shoulder, elbow, carrier = f"{side}_shoulder", f"{side}_elbow", self._arms[wrist][-3]
+        place, most = _from_root(wrist, body), WRIST_SWERVE * duration * duration
+        straight = add(self._places[wrist], scale(self._velocities[wrist], duration))
+        aside = subtract(place, straight)
+        off = length(aside)
+        if off <= most:
+            return body
+        start, above = body.transform(shoulder).position, body.transform(carrier).rotation
+        goal = add(body.root, add(straight, scale(aside, most / off)))
+        bones = body.skeleton.offset(elbow), body.skeleton.offset(wrist)
+        turns = brought(
+            bones,
+            (body.rotation(shoulder), body.rotation(elbow)),
+            rotate(conjugate(above), subtract(goal, start)),
+        )
+        return body.posed(dict(zip((shoulder, elbow), turns, strict=True)))
 
     def _speed(self, wrist: str, direction: Vec3, duration: float) -> float:
         """Return the speed limit of a wrist in a direction (a unit vector), m/s; a reversing wrist starts from rest."""

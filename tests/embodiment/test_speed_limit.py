@@ -4,6 +4,7 @@ from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -18,10 +19,11 @@ from reactive_realizer.embodiment.quaternion import (
     difference,
     from_axis_angle,
     from_euler,
+    multiply,
     rotate,
 )
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
-from reactive_realizer.embodiment.vector import UP, Vec3, distance, length
+from reactive_realizer.embodiment.vector import UP, Vec3, distance, length, subtract
 
 SKELETON = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "male.glb").skeleton
 FRAME = 0.02
@@ -100,12 +102,29 @@ def test_a_wrist_reaches_its_goal_without_overshooting(wanted: JointRotations) -
     assert shares[-1] < 1e-6
 
 
-def test_a_wrist_that_reverses_starts_from_rest() -> None:
+def swerves(shown: list[Body], wrist: str) -> float:
+    """The largest change of the velocity of a wrist relative to the root from a frame to the next, m/s²."""
+    places = np.array([subtract(each.transform(wrist).position, each.root) for each in shown])
+    return float(np.linalg.norm(np.diff(places, 2, axis=0), axis=1).max()) / FRAME**2
+
+
+def test_a_wrist_that_reverses_slows_down_first() -> None:
     there = {"r_elbow": from_axis_angle((1.0, 0.0, 0.0), -2.0)}
-    moved = steps(followed(body(), (body(there), 5), (body(), 2)), "r_wrist")
+    shown = followed(body(), (body(there), 5), (body(), 30))
+    moved = steps(shown, "r_wrist")
     assert moved[0] < 0.0151
     assert moved[4] > 0.04, "at full speed"
-    assert moved[5] < 0.0151, "and back slowly"
+    assert swerves(shown, "r_wrist") < 56.0
+    assert shown[-1].rotation("r_elbow") == pytest.approx(IDENTITY)
+
+
+@pytest.mark.parametrize("turn", [(0.0, 0.0, 1.0), (0.0, 1.0, 0.0)])
+def test_a_wrist_that_turns_aside_at_once_is_carried_on(turn: Vec3) -> None:
+    ahead = {"l_shoulder": from_axis_angle((1.0, 0.0, 0.0), -1.5), "l_elbow": from_axis_angle((1.0, 0.0, 0.0), -0.8)}
+    aside = {**ahead, "l_shoulder": multiply(from_axis_angle(turn, 1.0), ahead["l_shoulder"])}
+    shown = followed(body(), (body(ahead), 12), (body(aside), 40))
+    assert swerves(shown, "l_wrist") < 56.0
+    assert all(shown[-1].rotation(joint) == pytest.approx(goal) for joint, goal in aside.items())
 
 
 def test_fingertips_move_less_than_3_cm_by_a_turn_of_the_wrist() -> None:

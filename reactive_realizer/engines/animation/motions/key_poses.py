@@ -112,6 +112,7 @@ class KeyPosesMotionUnit(MotionUnit):
         self._rest = rest
         self._first = SolvedRotations({joint: rest.rotation(joint) for joint in self.joints})
         self._arcs = [GrowingArcs() for _ in keys]
+        self._left: Mapping[str, Quat] | None = None
         self._relaxes = max(keys[-1].left, _SHORTEST)
         self.preferred_duration = self._relaxes + self._fade_out
         named = {sync: min(time, self._relaxes) / self.preferred_duration for sync, time in points.items()}
@@ -122,8 +123,8 @@ class KeyPosesMotionUnit(MotionUnit):
     def start(self, body: Body) -> None:
         """Start from the current body."""
         self._first = SolvedRotations({joint: body.rotation(joint) for joint in self.joints})
-
         self._arcs = [GrowingArcs() for _ in self._keys]
+        self._left = None
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the pose between two key poses, or at one of them."""
@@ -136,6 +137,10 @@ class KeyPosesMotionUnit(MotionUnit):
         at = cache(lambda number: self._at(number, body, moment))
         if moment.shown is not None:
             self.hands = tuple(self._hands(number, passed, weight, moment.body))
+        if time > self._relaxes and moment.shown is not None:
+            # An arm that is released no longer makes up for a trunk that comes back: its way to rest would turn around.
+            self._left = self._left or at(number).rotations
+            return MotionPose(self._left, weight)
         if passed == 1.0:
             return MotionPose(at(number).rotations, weight)
         if key.way is not None:
