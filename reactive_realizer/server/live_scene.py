@@ -21,6 +21,7 @@ from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
 from reactive_realizer.server.protocol import VERSION, Message
 from reactive_realizer.server.steps_stream import StepsStream
+from reactive_realizer.server.world_stream import WorldStream
 
 _YOUNG, _OLDER = 7_000, 3_000
 """Number of new objects that trigger a collection of these, which takes about a millisecond: the planning of a tick
@@ -70,7 +71,7 @@ class LiveScene:
         session: id of this run.
         ticker: source of the ticks.
         tick: number of the last tick.
-        feedback, sounds, frames, steps, board: the streams.
+        feedback, sounds, frames, steps, world, board: the streams.
         clients: the connected clients.
         found: files found at the start, for `capabilities_of`.
     """
@@ -86,6 +87,7 @@ class LiveScene:
         self.sounds = AudioStream(self.limits.sound_bytes)
         self.frames = FrameStream(self.realizer)
         self.steps = StepsStream(self.realizer)
+        self.world = WorldStream(self.realizer)
         self.board = BoardStream(self.realizer.board, lambda: self.realizer.time)
         self.clients = Clients(self.limits.clients)
         self.found = found_for(scene) if found is None else found

@@ -17,13 +17,14 @@ class Stream(StrEnum):
     FRAMES = "frames"
     BOARD = "board"
     STEPS = "steps"
+    WORLD = "world"
 
 
 _DEFAULT = frozenset({Stream.FEEDBACK, Stream.AUDIO, Stream.FRAMES})
 
 
 def streams_of(query: Mapping[str, str]) -> frozenset[Stream]:
-    """The streams in a query such as ``streams=feedback,frames``; by default all but sound, board and steps.
+    """The streams in a query such as ``streams=feedback,frames``; by default feedback, audio and frames.
 
     Raises:
         RealizerError: "bad-query".

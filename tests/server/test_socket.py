@@ -1,6 +1,7 @@
 """The WebSocket: hello, BML, feedback, frames, and requests."""
 
 import struct
+from typing import Any
 
 import numpy as np
 import pytest
@@ -249,6 +250,52 @@ async def test_nobody_asks_where_characters_step_without_a_request(
         assert (await socket.ask(type="bml", xml=WALK))["type"] == "accepted"
         await air.tick_until(2.0)
         assert asked == []
+
+
+async def test_the_world_is_told_on_request_when_something_in_it_moves(on_air: Open) -> None:
+    things = "[target.bluebox]\nposition = [1, 1, 1]\n[target.greensphere]\nposition = [0, 1, 1]"
+    async with on_air(f"{ALICE}\n{things}") as air:
+        page, planner = await air.connect("?streams=world"), await air.connect("?streams=")
+
+        async def heard() -> list[dict[str, Any]]:
+            await page.say(type="clock")
+            messages = []
+            while (message := await page.hear())["type"] != "clock":
+                messages.append(message)
+            return messages
+
+        await air.tick_until(0.5)
+        (everything,) = await heard()
+        assert {"bluebox", "greensphere"} <= everything["targets"].keys()
+        assert everything["characters"]["alice"] == {"position": [0.0, 0.0, 0.0], "heading": 0.0}
+        await planner.ask(type="world", set={"bluebox": [0.5, 1.0, 2.0], "greensphere": None})
+        await air.tick_until(1.0)
+        (change,) = await heard()
+        assert change["targets"] == {"bluebox": [0.5, 1.0, 2.0], "greensphere": None}
+        assert change["characters"] == {}
+        await planner.ask(type="bml", xml=WALK)
+        await air.tick_until(6.0)
+        walk = [message["characters"]["alice"] for message in await heard()]
+        assert len(walk) > 10
+        assert walk[-1]["position"][2] == pytest.approx(2.0, abs=0.1)
+
+
+async def test_a_target_in_a_hand_moves_with_it(on_air: Open) -> None:
+    take = (
+        f'<bml {BML} xmlns:rr="urn:reactive-realizer:1" id="b">'
+        '<pointing id="p" target="bluebox" mode="RIGHT_HAND" rr:reach="TAKE"/></bml>'
+    )
+    async with on_air() as air:
+        page, planner = await air.connect("?streams=world"), await air.connect("?streams=")
+        await planner.ask(type="world", set={"bluebox": [-0.25, 1.15, 0.4]})
+        await planner.ask(type="bml", xml=take)
+        await air.tick_until(4.0)
+        await page.say(type="clock")
+        boxes = []
+        while (message := await page.hear())["type"] != "clock":
+            boxes += [message["targets"]["bluebox"]] if "bluebox" in message["targets"] else []
+        assert len(boxes) > 5
+        assert boxes[-1][1] < 1.0
 
 
 async def test_an_unchanged_peg_list_is_not_sent(on_air: Open) -> None:

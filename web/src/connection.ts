@@ -152,8 +152,9 @@ export class Connection {
       case "board":
         this.listener.onBoard(message);
         break;
-      case "steps":
-        break; // these come by a socket of their own
+      case "steps": // these come by a socket of their own
+      case "targets": // these are for planners
+        break;
       case "audio":
       case "caption":
       case "audio_move":

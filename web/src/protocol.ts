@@ -60,6 +60,7 @@ export type ServerMessage =
   | AudioStop
   | Board
   | Steps
+  | Targets
   | Accepted
   | Refused;
 /**
@@ -381,6 +382,26 @@ export interface Footprint {
   position: Spot;
   heading: number;
   made: boolean;
+}
+/**
+ * Where targets are, null for those that are gone, and where characters stand: all at first, then what has changed. Sent to clients that request the stream world.
+ */
+export interface Targets {
+  type: "targets";
+  time: Seconds;
+  targets: {
+    [k: string]: Position | null;
+  };
+  characters: {
+    [k: string]: Standing;
+  };
+}
+/**
+ * Where a character stands, and where it faces, in degrees to the left of +z.
+ */
+export interface Standing {
+  position: Position;
+  heading: number;
 }
 /**
  * The message with this ref has taken effect; feedback reports its results.
