@@ -119,6 +119,24 @@ async def test_an_additive_clip_is_added_to_a_gesture(open_still: OpenStill, ass
     assert max(turn for time, turn in between.items() if time > 1.9) < 0.01
 
 
+async def test_a_clip_of_a_part_of_the_body_leaves_the_rest_alone(open_still: OpenStill, assets: Path) -> None:
+    both = clip((0.0, 0.0), (1.0, -1.0), (2.0, 0.0)).replace("l_shoulder", "l_shoulder r_shoulder")
+    for row in ("0.0 1 0 0 0.0", "1.0 1 0 0 -1.0", "2.0 1 0 0 0.0"):
+        both = both.replace(row, f"{row} {row.partition(' ')[2]}")
+    (assets / "both.xml").write_text(both)
+    async with open_still(assets) as pilot:
+        pilot.perform(act('<blend name="both" sbm:partial-joint="l_sternoclavicular" sbm:wrap-mode="Once" start="0"/>'))
+        await pilot.advance(3)
+        right = np.array([body.rotation("r_shoulder") for body in pilot.bodies()])
+        assert np.ptp(right, axis=0).max() < 0.02
+        assert about_x(pilot).min() == pytest.approx(-1.0, abs=0.03)
+        assert pilot.feedback.warnings == []
+        pilot.perform(act('<blend id="odd" name="both" sbm:partial-joint="tail" sbm:wrap-mode="Once"/>'))
+        await pilot.advance(1)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert "this character lacks tail" in warning.text
+
+
 # --- blends
 
 

@@ -13,6 +13,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     take_number,
     tie,
 )
+from reactive_realizer.bml.smartbody.joints import joint_named
 from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault
 
@@ -88,6 +89,8 @@ def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
     duration = take_number(tree, "duration", source, -1.0, _LONGEST)
     if duration is not None and duration > 0.0:
         tie(tree, "end", "start", duration)
+    if partial := take(tree, "partial-joint"):
+        set_parameter(tree, "below", joint_named(partial), source)
     if _loops(tree):
         set_parameter(tree, "loop", "true", source)
     _mix(tree, source)

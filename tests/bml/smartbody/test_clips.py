@@ -109,9 +109,14 @@ def test_what_asks_for_how_clips_play_anyway_is_not_told(as_here: str) -> None:
     assert clip.parameters == {}
 
 
+def test_a_clip_may_be_that_of_a_part_of_the_body() -> None:
+    clip = only('<blend name="wave" sbm:partial-joint="JtSpineB" sbm:wrap-mode="Once"/>')
+    assert clip.parameters == {"below": "vt10"}
+
+
 def test_what_clips_cannot_do_is_told() -> None:
-    (sentence,) = told('<blend name="step" mode="update" sbm:schedule-mode="Queued" sbm:partial-joint="spine1"/>')
-    assert sentence == "mode, sbm:schedule-mode, sbm:partial-joint of SmartBody has no effect on <blend> here"
+    (sentence,) = told('<blend name="step" mode="update" sbm:schedule-mode="Queued"/>')
+    assert sentence == "mode, sbm:schedule-mode of SmartBody has no effect on <blend> here"
 
 
 def test_an_animation_has_a_speed() -> None:

@@ -1,7 +1,7 @@
 """Keyframe animations and captures as motions."""
 
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import lru_cache, partial
 from pathlib import Path
 
@@ -48,6 +48,9 @@ GROUP = "group"
 SPEED = "speed"
 """Parameter for the speed at which it plays by default, 1 for that of the file."""
 
+BELOW = "below"
+"""Parameter for a joint: the motion is restricted to that and all below it."""
+
 LOOP, ADDITIVE = "loop", "additive"
 """Parameters for whether it is played over and over until its end, and whether it is added to other motion."""
 
@@ -55,7 +58,7 @@ FADE_IN, FADE_OUT = "fadeIn", "fadeOut"
 """Parameters for the shares of its duration in which its weight rises and falls."""
 
 
-FIXED = FILE_PARAMETERS | {FILTER, GROUP, SPEED, LOOP, ADDITIVE, FADE_IN, FADE_OUT}
+FIXED = FILE_PARAMETERS | {FILTER, GROUP, BELOW, SPEED, LOOP, ADDITIVE, FADE_IN, FADE_OUT}
 """Parameters that are read when a motion is made."""
 
 
@@ -139,8 +142,8 @@ _RANGES = {FILTER: Range(0.0, 1e6), SPEED: Range(0.05, 20.0), FADE_IN: Range(0.0
 class KeyframeMaker:
     """Makes motions of keyframes in BML or in files.
 
-    Parameters are `mirror`, then `joints`, a selection (thesis C.1.2), or `group`; `filter`, a low-pass, Hz (3.2.2.2);
-    `speed`, `fadeIn` and `fadeOut`; `loop` and `additive`; and those of a blend, `x`, `y` and `z`.
+    Parameters are `mirror`, then `joints`, a selection (thesis C.1.2), `group` or `below`; `filter`, a low-pass, Hz
+    (3.2.2.2); `speed`, `fadeIn` and `fadeOut`; `loop` and `additive`; and those of a blend, `x`, `y` and `z`.
     """
 
     def __init__(self, context: MakerContext) -> None:
@@ -180,13 +183,27 @@ class KeyframeMaker:
         chosen = request.joints or self._group(request, clip)
         clip, lacking = clip.only(chosen), chosen.difference(clip.joints)
         clip = clip.folded(self._skeleton.joints)
-        there = [joint for joint in clip.joints if joint in self._skeleton]
-        lacking |= frozenset(clip.joints).difference(there)
+        lacking |= frozenset(clip.joints).difference(self._skeleton.joints)
+        wanted = self._below(request)
+        there = [joint for joint in clip.joints if joint in wanted]
         if not there:
             raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element=request.behavior.name))
         if lacking:
             _log_once(clip.name, ", ".join(sorted(lacking)))
         return clip.only(there), lacking
+
+    def _below(self, request: MotionRequest) -> Collection[str]:
+        """Return the joints of the figure to which a motion is restricted: a joint and all below it, or all.
+
+        Raises:
+            RealizerError: "no-joints": the figure lacks the joint.
+        """
+        name = request.parameters.get(BELOW)
+        if name is None:
+            return self._skeleton.joints
+        if name not in self._skeleton:
+            raise RealizerError(NoJoints(joints=(name,), element=request.behavior.name))
+        return self._skeleton.carried([name])
 
     def _group(self, request: MotionRequest, clip: Clip) -> frozenset[str]:
         """Return the joints of the clip that are in the requested group, by default all.
