@@ -274,8 +274,8 @@ _EMBR_NOTES = {
     "MORPH_TARGET": "`bmlt:facekeyframe`",
     "SHADER": "`bmlt:facekeyframe`; `blushing` and `paling`",
     "AUTONOMOUS_BEHAVIOR": "`idleChange`, or a movement: [the keys](embrscript.md#autonomous-behaviors); a TIME_WARP \
-and a FEEDBACK_ID have no effect. Behaviors of your own, which EMBR's character files define, are \
-[blocks](embrscript.md#triggers) here",
+and a FEEDBACK_ID have no effect. Behaviors of your own are in the \
+[human file](human.md#autonomous-behaviors), as they are in EMBR's character files",
 }
 """Element of EMBRScript -> what it is read as."""
 

@@ -9,12 +9,14 @@ from sys import float_info
 from typing import Any, Final, TypeVar
 
 from reactive_realizer.assembly.faults import BadHumanFile
+from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.expressivity import MOST, Expressivity
 from reactive_realizer.bml.faults import NotAnId
 from reactive_realizer.bml.names import BLOCK, EVENTS
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
+from reactive_realizer.liveliness.autonomous_behaviors import AutonomousBehavior, Trigger
 
 T = TypeVar("T")
 
@@ -47,6 +49,12 @@ WIDEST = 100.0
 FARTHEST = 10_000.0
 """Limit of the coordinates of characters and targets, m, also for clients that move targets."""
 
+SHORTEST_PERIOD, LONGEST_PERIOD = 0.5, 86_400.0
+"""Bounds of the time from one autonomous behavior to the next, s."""
+
+_EVENT: Final = re.compile(r"[^\s:+]+:[^\s:+]+")
+"""An anticipator and its point."""
+
 _ID: Final = re.compile(r"[^\s:+\x00-\x1f\x7f]{1,200}")
 """Ids that BML can refer to."""
 
@@ -68,6 +76,7 @@ class CharacterSpec:
         weight: of its physical body, kg; None for the usual one of its stature.
         simulation_steps: of its physical body in each tick; None for steps of the usual time.
         bindings: names of files among the assets, by kind; by default `DEFAULT_BINDINGS`.
+        autonomous: what it does by itself, by name.
     """
 
     avatar: str = "avatars/female.glb"
@@ -82,6 +91,7 @@ class CharacterSpec:
     weight: float | None = None
     simulation_steps: int | None = None
     bindings: Mapping[str, str] = field(default_factory=lambda: DEFAULT_BINDINGS)
+    autonomous: Mapping[str, AutonomousBehavior] = field(default_factory=dict)
 
     def voice_of(self, tts: str) -> str | None:
         """The name of its voice of a text-to-speech binding; None for the default of this binding."""
@@ -180,6 +190,19 @@ class _Reader:
                 raise self._bad(f"{key}.engines", f"{engine!r} is listed twice")
         return replace(spec, bindings={**DEFAULT_BINDINGS, **spec.bindings})
 
+    def autonomous(self, key: str, table: Any) -> AutonomousBehavior:
+        spec = self.read(AutonomousBehavior, key, table)
+        if spec.trigger not in tuple(Trigger):
+            raise self._bad(f"{key}.trigger", f"{spec.trigger!r} is not one of {', '.join(Trigger)}")
+        if not SHORTEST_PERIOD <= spec.every <= LONGEST_PERIOD:
+            raise self._bad(f"{key}.every", f"{spec.every:g} is not from {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} s")
+        if (spec.trigger == Trigger.EVENT) is not bool(_EVENT.fullmatch(spec.event)):
+            raise self._bad(f"{key}.event", "the trigger event needs an anticipator and a point, as in 'partner:nod'")
+        for parsed in parse(spec.document("", "autonomous"), Limits()):
+            for problem in parsed.problems:
+                raise self._bad(f"{key}.behavior", problem.fault.sentence)
+        return spec
+
     def target(self, key: str, table: Any) -> TargetSpec:
         spec = self.read(TargetSpec, key, table)
         if not 0.0 <= spec.radius <= WIDEST:
@@ -241,6 +264,8 @@ class _Reader:
             return tuple(self._value(key, part, str) for part in value)
         if kind == Mapping[str, float] and isinstance(value, dict):
             return {name: self._value(f"{key}.{name}", part, float) for name, part in value.items()}
+        if kind == Mapping[str, AutonomousBehavior] and isinstance(value, dict):
+            return self.section({key: value}, key, self.autonomous)
         if kind == str | Mapping[str, str] and isinstance(value, str):
             return value
         if kind in (Mapping[str, str], str | Mapping[str, str]) and isinstance(value, dict):

@@ -118,6 +118,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         speech_streams=streams,
         word_classes=classes,
         fillers=fillers,
+        autonomous={id_: spec.autonomous for id_, spec in specification.characters.items()},
         dialects=Dialects({name: load("dialects", name) for name in names("dialects")}),
         verify=options.verify,
     )

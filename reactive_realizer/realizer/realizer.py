@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AsyncExitStack
 from dataclasses import replace
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Self
 
 from reactive_realizer.bml.behaviors import streams_of
@@ -27,6 +27,7 @@ from reactive_realizer.feedback.feedback_manager import FeedbackManager
 from reactive_realizer.feedback.messages import WarningFeedback
 from reactive_realizer.limits import Limits
 from reactive_realizer.liveliness.accompanist import Accompanist
+from reactive_realizer.liveliness.autonomous_behaviors import AutonomousBehavior, AutonomousBehaviors
 from reactive_realizer.liveliness.fillers import NO_FILLERS, Fillers
 from reactive_realizer.liveliness.floor_holder import FloorHolder
 from reactive_realizer.liveliness.listeners import Listeners
@@ -82,6 +83,7 @@ class Realizer:
         speech_streams: the sound of speeches that clients send.
         word_classes: the words with which speakers move.
         fillers: what they say to hold the floor.
+        autonomous: the behaviors that they do by themselves, by character and name.
         dialects: in which documents may be.
 
     Attributes:
@@ -104,6 +106,7 @@ class Realizer:
         speech_streams: SpeechStreams | None = None,
         word_classes: WordClasses = NO_CLASSES,
         fillers: Fillers = NO_FILLERS,
+        autonomous: Mapping[str, Mapping[str, AutonomousBehavior]] = MappingProxyType({}),
         dialects: Dialects = ONLY_BML,
         verify: bool = False,
     ) -> None:
@@ -124,6 +127,7 @@ class Realizer:
         self._speech_streams = speech_streams or SpeechStreams(limits)
         self._word_classes = word_classes
         self._fillers = fillers
+        self._autonomous_behaviors = autonomous
         self._verify = verify
         self._engines = {each.id: tuple(map(GuardedEngine, each.engines)) for each in characters}
         self._routing = EngineRouting(self._engines)
@@ -159,6 +163,7 @@ class Realizer:
         Accompanist(self.scheduler, listeners, self.limits, self._word_classes)
         voices = {each.id: each.voice for each in self.characters.values()}
         self._floor = FloorHolder(self.scheduler, listeners, self.limits, self._fillers, voices)
+        self._autonomous = AutonomousBehaviors(self.scheduler, self.limits, self._autonomous_behaviors)
         self._verifier = Verifier(self.scheduler, self.feedback) if self._verify else None
         return self
 
@@ -392,6 +397,7 @@ class Realizer:
         self.scheduler.begin_planning()
         self._background.deliver(entered.work, now)
         self._floor.advance(now)
+        self._autonomous.advance(now)
         for entry in entered.inputs:
             if isinstance(entry, BmlText):
                 self.scheduler.take(entry.parsed or (), entry.client)

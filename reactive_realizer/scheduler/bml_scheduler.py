@@ -161,6 +161,10 @@ class BMLScheduler:
         """Have a block of the realizer itself enter, which gives way to others, behind the blocks of all clients."""
         self._turns.add(self._entries.add(Parsed(block), ACCOMPANIST, self._board.time))
 
+    def is_expected(self, id_: str) -> bool:
+        """Whether a block with an id has arrived and not entered yet."""
+        return id_ in self._entries
+
     def withdraw(self, character: str, id_: str, now: GlobalTime) -> bool:
         """Interrupt a block of the realizer itself, if it is alive; whether it has entered."""
         block = self.blocks.get(BlockKey(character, id_))

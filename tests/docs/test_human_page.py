@@ -56,6 +56,17 @@ async def test_nothing_moves_without_idle_animation(tmp_path: Path) -> None:
         assert all((frame.weights == first.weights).all() for frame in others)
 
 
+async def test_the_autonomous_behaviors_of_the_page_come_by_themselves_and_at_their_event(tmp_path: Path) -> None:
+    (example,) = (fence for fence in fences("docs/human.md", "toml") if fence.note == "autonomous.toml")
+    (tmp_path / example.note).write_text(example.text, encoding="utf-8")
+    async with open_pilot(SceneOptions(tmp_path / example.note, "text")) as pilot:
+        pilot.predict("partner", "pause", 3.0)
+        await pilot.advance(46)
+        assert pilot.feedback.time("listen.autonomous.1:nod:start") == pytest.approx(3.0, abs=0.02)
+        assert 15.0 <= pilot.feedback.time("sigh.autonomous.1:sigh:start") <= 45.0
+        assert pilot.feedback.warnings == []
+
+
 def test_the_page_shows_the_files_of_the_example() -> None:
     assert fences("docs/human.md", "toml")[0].text == HUMAN.read_text(encoding="utf-8")
     assert fences("docs/human.md", "xml")[0].text == BLOCKS.read_text(encoding="utf-8")
