@@ -7,6 +7,8 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.realizer.inputs import TickInputs
+from reactive_realizer.realizer.session import replay
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 SIGH = 'behavior = \'<gesture id="sigh" lexeme="BREATHE"/>\''
@@ -115,3 +117,21 @@ async def test_a_behavior_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     with pytest.raises(RealizerError, match=r"autonomous.x.behavior: .*requires the attribute 'lexeme'"):
         async with open_scene(scene(tmp_path, "[character.alice.autonomous.x]\nbehavior = '<head id=\"n\"/>'")):
             pass
+
+
+async def test_a_session_with_them_is_replayed_byte_by_byte(tmp_path: Path) -> None:
+    habits = (
+        f"[character.alice.autonomous.sigh]\n{SIGH}\nevery = 3\n"
+        f'[character.alice.autonomous.nod]\n{NOD}\ntrigger = "event"\nevent = "partner:bang"'
+    )
+    session: list[TickInputs] = []
+    async with open_pilot(scene(tmp_path, habits)) as pilot:
+        pilot.realizer.record(session.append)
+        pilot.predict("partner", "bang", 2.0)
+        pilot.block("b", '<head id="h" lexeme="SHAKE" start="2.5"/>')
+        await pilot.advance(10)
+        played = pilot.feedback.raw
+    async with open_pilot(scene(tmp_path, habits)) as pilot:
+        await replay(pilot.realizer, session)
+        assert pilot.feedback.raw == played
+    assert len(played) > 20
