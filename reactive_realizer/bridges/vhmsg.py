@@ -13,7 +13,12 @@ from reactive_realizer.errors import RealizerError
 
 
 async def run_bridge(
-    url: str, broker: Broker, scope: str, agents: Mapping[str, str], form: FeedbackForm = FeedbackForm.NONE
+    url: str,
+    broker: Broker,
+    scope: str,
+    agents: Mapping[str, str],
+    form: FeedbackForm = FeedbackForm.NONE,
+    unit: float = 1.0,
 ) -> None:
     """Pass messages on until the toolkit asks this component to end.
 
@@ -23,13 +28,14 @@ async def run_bridge(
         scope: of its messages.
         agents: characters by the names of agents; other agents have the name of their character.
         form: of feedback on behaviors.
+        unit: of lengths in commands of the toolkit, m.
 
     Raises:
         RealizerError: "not-reached", "other-protocol" or "no-broker"; also if a connection is lost.
     """
     async with RealizerSocket(url) as realizer, connected(broker, f"/topic/{scope}") as bus:
         known = {character["id"]: character["id"] for character in realizer.hello["characters"]}
-        bridge = VhmsgBridge({**known, **agents}, partial(_send, bus, scope), form)
+        bridge = VhmsgBridge({**known, **agents}, partial(_send, bus, scope), form, unit)
         bridge.announce()
         try:
             async with asyncio.TaskGroup() as group:

@@ -9,6 +9,7 @@ from lxml import etree
 
 from reactive_realizer.bridges.vhmsg_feedback import FeedbackForm, feedback_message
 from reactive_realizer.bridges.vhmsg_messages import Act
+from reactive_realizer.bridges.vhmsg_pawns import Pawn
 from reactive_realizer.client.vh_message import VhMessage
 from reactive_realizer.errors import quoted
 
@@ -51,6 +52,7 @@ class VhmsgBridge:
         characters: of the realizer, by the names of agents.
         send: sends a message to the toolkit.
         form: of feedback on behaviors.
+        unit: of lengths in commands of the toolkit, m.
     """
 
     def __init__(
@@ -58,8 +60,11 @@ class VhmsgBridge:
         characters: Mapping[str, str],
         send: Callable[[VhMessage], object],
         form: FeedbackForm = FeedbackForm.NONE,
+        unit: float = 1.0,
     ) -> None:
         self._form = form
+        self._unit = unit
+        self._pawns: dict[str, tuple[float, ...]] = {}
         self._characters = characters
         self._send = send
         self._played: dict[str, _Played] = {}
@@ -73,6 +78,13 @@ class VhmsgBridge:
         """Take a message of the toolkit; what the realizer is to be sent, if anything."""
         if message.word == "vrAllCall":
             self.announce()
+        try:
+            pawn = Pawn.of(message)
+        except ValueError as problem:
+            logger.warning("a pawn cannot be placed: %s: %s", problem, quoted(message.argument))
+            return None
+        if pawn is not None:
+            return self._place(pawn)
         act = Act.of(message)
         if act is None:
             if message.word == "vrSpeak":
@@ -89,6 +101,10 @@ class VhmsgBridge:
             return None
         self._played |= dict.fromkeys(ids, _Played(act, set(ids)))
         return {"type": "bml", "xml": text, "ref": ids[0]}
+
+    def _place(self, pawn: Pawn) -> Request:
+        self._pawns[pawn.name] = place = pawn.placed(self._pawns.get(pawn.name, (0.0, 0.0, 0.0)))
+        return {"type": "world", "set": {pawn.name: [self._unit * value for value in place]}}
 
     def report(self, message: Mapping[str, Any]) -> None:
         """Take a message of the realizer, and report it."""

@@ -2,6 +2,7 @@
 
 import argparse
 import asyncio
+import math
 
 from reactive_realizer.bridges import embr, vhmsg
 from reactive_realizer.bridges.vhmsg_feedback import FeedbackForm
@@ -18,6 +19,18 @@ def agent(text: str) -> tuple[str, str]:
     if not name or not character:
         raise ValueError(text)
     return name, character
+
+
+def length(text: str) -> float:
+    """Parse a length above 0.
+
+    Raises:
+        ValueError: it is none.
+    """
+    value = float(text)
+    if not 0.0 < value < math.inf:
+        raise ValueError(text)
+    return value
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -52,6 +65,9 @@ def _add_vhmsg(parser: argparse.ArgumentParser) -> None:
         default=FeedbackForm.NONE,
         help="also send feedback on behaviors, as that of BML 1.0 or as SmartBody's; none by default",
     )
+    parser.add_argument(
+        "--unit", type=length, default=1.0, metavar="M", help="the unit in which pawns are placed, m: 0.01 for cm; 1"
+    )
     parser.set_defaults(run=_run_vhmsg)
 
 
@@ -70,7 +86,11 @@ def _add_url(parser: argparse.ArgumentParser) -> None:
 
 def _run_vhmsg(options: argparse.Namespace) -> int:
     """The exit status: 0 if the toolkit asks the bridge to end. If a connection is lost, an error is raised."""
-    asyncio.run(vhmsg.run_bridge(options.url, broker_of(options), options.scope, dict(options.agent), options.feedback))
+    asyncio.run(
+        vhmsg.run_bridge(
+            options.url, broker_of(options), options.scope, dict(options.agent), options.feedback, options.unit
+        )
+    )
     return 0
 
 

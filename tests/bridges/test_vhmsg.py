@@ -54,6 +54,7 @@ async def test_requests_on_the_bus_are_played_and_reported_there(broker: Broker,
         assert await toolkit.hear("vrComponent") == "vrComponent reactive-realizer all"
         toolkit.say("vrSpeak", f"brad user m1 {LONG}")
         assert await toolkit.hear("vrAgentBML") == "vrAgentBML brad m1 start"
+        toolkit.say("sbm", "pawn cup init loc 0.5 1.5 2")
         toolkit.say("vrSpeak", f"brad user m2 {SHORT}")
         reports = [await toolkit.hear("vrAgentBML", "vrSpoke") for _ in range(4)]
         assert reports == [
@@ -62,6 +63,7 @@ async def test_requests_on_the_bus_are_played_and_reported_there(broker: Broker,
             "vrSpoke brad user m2 Hello",
             "vrAgentBML brad m2 end complete",
         ]
+        assert scene.realizer.world.position("cup") == (0.5, 1.5, 2.0)
         toolkit.say("vrSpeak", "brad user m3 <act><bml><speech></bml></act>")
         assert (await toolkit.hear("vrSpeakFailed")).startswith("vrSpeakFailed brad user m3 ")
         toolkit.say("vrKillComponent", "all")

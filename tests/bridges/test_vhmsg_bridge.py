@@ -119,6 +119,33 @@ def test_a_request_without_one_of_its_parts_is_logged(toolkit: Toolkit, caplog: 
     assert "needs an agent, a recipient, a name and BML: brad user <bml/>" in caplog.text
 
 
+@pytest.mark.parametrize(
+    ("commands", "place"),
+    [
+        (["pawn cup init loc 1 2 3 geom sphere"], [1.0, 2.0, 3.0]),
+        (["pawn cup init"], [0.0, 0.0, 0.0]),
+        (["set pawn cup world_offset x 1 y -2 z 3.5 h 90"], [1.0, -2.0, 3.5]),
+        (["pawn cup init loc 1 2 3", "set pawn cup world-offset y 5"], [1.0, 5.0, 3.0]),
+    ],
+)
+def test_a_pawn_that_is_placed_is_a_target(toolkit: Toolkit, commands: list[str], place: list[float]) -> None:
+    *_, last = [toolkit.bridge.take(VhMessage("sbm", command)) for command in commands]
+    assert last == {"type": "world", "set": {"cup": place}}
+
+
+def test_pawns_may_be_placed_in_centimeters() -> None:
+    bridge = VhmsgBridge({}, lambda message: None, unit=0.01)
+    moved = bridge.take(VhMessage("sbm", "pawn cup init loc 50 120 -30"))
+    assert moved == {"type": "world", "set": {"cup": pytest.approx([0.5, 1.2, -0.3])}}
+
+
+@pytest.mark.parametrize("place", ["far 1 2", "nan 0 0", "1e999 0 0"])
+def test_a_pawn_that_cannot_be_placed_is_logged(toolkit: Toolkit, caplog: pytest.LogCaptureFixture, place: str) -> None:
+    with caplog.at_level(logging.WARNING):
+        assert toolkit.bridge.take(VhMessage("sbm", f"pawn cup init loc {place}")) is None
+    assert "a pawn cannot be placed: could not convert" in caplog.text
+
+
 def test_it_answers_a_call_of_all_components(toolkit: Toolkit) -> None:
     toolkit.bridge.take(VhMessage("vrAllCall", ""))
     assert toolkit.sent == ["vrComponent reactive-realizer all"]
