@@ -1,7 +1,7 @@
 """The way of the arms around the body when they go from one pose to another."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
@@ -21,8 +21,8 @@ from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale
 
 _TURNED = {side: (f"{side}_shoulder", f"{side}_elbow") for side in SIDES}
 
-_WEIGHTS = tuple(number / 15 for number in range(1, 15))
-"""Shares of the way at which the arms are looked at."""
+_COARSE, _FINE = (tuple(number / 14 for number in range(first, 14, 2)) for first in (2, 1))
+"""Shares of the way at which the arms are looked at first, and once they are clear there."""
 
 _STEPS = 4
 """Steps of the solution; what it leaves, the figure keeps clear of in each frame."""
@@ -115,26 +115,32 @@ class _Search:
 
     def __call__(self, way: Detour) -> tuple[Detour, float]:
         """Return the best detour of a kind, and how far the arms still have to turn to be out of flesh, rad."""
-        best = (way, math.inf)
+        best, least = way, (True, math.inf)
         for _ in range(_STEPS + 1):
-            worst, further = self._worst(way)
-            left = max(worst.values(), default=0.0)
-            if left < best[1]:
-                best = (way, left)
+            worst, further = self._worst(way, _COARSE)
+            if not (rough := bool(worst)):
+                worst, further = self._worst(way, _FINE)
+            left = rough, max(worst.values(), default=0.0)
+            if left < least:
+                best, least = way, left
             if not worst:
                 break
             turns = {joint: add(way.turns.get(joint, ZERO), turn) for joint, turn in further.items()}
             way = way._replace(turns={**way.turns, **turns}).limited(self._begin, self._goal)
-        return best
+        return best, least[1]
 
-    def _worst(self, way: Detour) -> tuple[dict[str, float], dict[str, Vec3]]:
+    def _worst(self, way: Detour, weights: Sequence[float]) -> tuple[dict[str, float], dict[str, Vec3]]:
         """Return how far each arm has to turn to be out of flesh where it is deepest, rad, and the turns of a detour.
 
         What an arm needs at an end of the way, too, is left out.
+
+        Args:
+            way: the detour so far.
+            weights: of the goal at which the arms are looked at.
         """
         worst: dict[str, float] = {}
         further: dict[str, Vec3] = {}
-        for weight in _WEIGHTS:
+        for weight in weights:
             layer = Layer(LayerKind.POSTURE, way.turned(self._goal.pose, weight), weight, root=self._goal.root)
             turns = self._turns(over(self._begin, layer))
             for side in SIDES if turns else ():
