@@ -70,7 +70,7 @@ async def pilot(tmp_path: Path) -> AsyncIterator[RealizerPilot]:
         ('<bmlt:procanimationgesture id="x" name="swing">{}</bmlt:procanimationgesture>', "a, amount, file"),
         (
             '<bmlt:keyframe id="x" name="wave">{}</bmlt:keyframe>',
-            "fadeIn, fadeOut, file, filter, group, joints, mirror, name",
+            "additive, below, fadeIn, fadeOut, file, filter, group, joints, loop, mirror, name",
         ),
         ('<bmlt:noise id="x" type="perlin" joint="vl5">{}</bmlt:noise>', "baseamplitudex, baseamplitudey"),
         ('<bmlt:transition id="x" class="SlerpTransition">{}</bmlt:transition>', "class, joints, replacementgroup"),
