@@ -44,7 +44,8 @@ class Behavior:
         order: its index among the behaviors of its block, in document order.
         syncs: the reference of each constrained sync point, in the order of writing.
         required: whether the block fails without it.
-        persistent: whether it lasts until another one replaces it; only gazes and postures of drafts can.
+        persistent: whether it lasts until it is interrupted or replaced: gazes, postures and noise of drafts,
+            controllers, and loops can.
         descriptions: its description levels, as written.
         instead_of: in a description, the sync points of the core behavior, which it must have too; otherwise empty.
         extensions: attributes of other namespaces, (namespace, local name) to value.

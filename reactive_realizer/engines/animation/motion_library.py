@@ -39,7 +39,7 @@ from reactive_realizer.engines.animation.motions.glance import GlanceMaker
 from reactive_realizer.engines.animation.motions.greta_gesture import GretaGestureMaker
 from reactive_realizer.engines.animation.motions.greta_spine import GretaSpineMaker
 from reactive_realizer.engines.animation.motions.key_poses_maker import KeyPosesMaker
-from reactive_realizer.engines.animation.motions.keyframe import KeyframeMaker
+from reactive_realizer.engines.animation.motions.keyframe_maker import KeyframeMaker
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMaker
 from reactive_realizer.engines.animation.motions.murml import MurmlMaker
 from reactive_realizer.engines.animation.motions.noise import NoiseMaker
