@@ -113,6 +113,7 @@ class Idle:
         rate, depth = self.courses[IdleParameter.BREATHING_RATE], self.courses[IdleParameter.BREATHING_DEPTH]
         air = degree * depth.value(time) * self._breath.air(rate.integral(time))
         side, forth, turn = (degree * _wave(time + self._sway, *wave) for wave in _WAVES)
+        loose = {side: degree * smoothstep(each) for side, each in self._loose.items() if each}
         nod, aside, tilt = scale(self._looseness.head(time), 0.5 * degree)
         return {
             "vl5": from_euler(0.006 * forth, 0.008 * turn, 0.006 * side),
@@ -121,7 +122,7 @@ class Idle:
             "r_sternoclavicular": from_axis_angle((0.0, 0.0, 1.0), -0.022 * air),
             "vc4": from_euler(0.012 * air - 0.006 * forth + nod, aside, tilt - 0.006 * side),
             "skullbase": from_euler(0.006 * forth + nod, 0.010 * turn + aside, 0.004 * side + tilt),
-            **self._looseness.elbows(time, {side: degree * smoothstep(each) for side, each in self._loose.items()}),
+            **self._looseness.elbows(time, loose),
             **self._looseness.fingers(time, degree),
         }
 

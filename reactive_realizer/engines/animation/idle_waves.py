@@ -70,10 +70,9 @@ class Looseness:
         return nod * nods.at(time), turn * turns.at(time), tilt * tilts.at(time)
 
     def elbows(self, time: float, degrees: Mapping[str, float]) -> dict[str, Quat]:
-        """Return the turns of elbows at a time, s, each scaled by the degree of its side ("l" or "r")."""
-        halves = (
-            (f"{side}_elbow", 0.5 * degrees[side] * _ELBOW * wave.at(time)) for side, wave in self._elbows.items()
-        )
+        """Return the turns of elbows at a time, s, for some sides ("l" or "r"), each scaled by its degree."""
+        waves = ((side, degree * self._elbows[side].at(time)) for side, degree in degrees.items())
+        halves = ((f"{side}_elbow", 0.5 * _ELBOW * turn) for side, turn in waves)
         return {joint: (cos(half), sin(half), 0.0, 0.0) for joint, half in halves}
 
     def fingers(self, time: float, degree: float) -> dict[str, Quat]:
