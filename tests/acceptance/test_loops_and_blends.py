@@ -211,6 +211,12 @@ async def test_a_blend_of_two_parameters_has_cells(open_still: OpenStill, assets
         ('<Blend><Motion id="a" file="low.xml" at="1 2"/><Cell motions="b"/></Blend>', "no motion with the id 'b'"),
         ('<Blend><Motion id="a" file="low.xml" at="1 2"/><Cell motions="a a a"/></Blend>', "a cell is flat"),
         ('<Blend><Motion file="low.xml" times="1 0.5"/></Blend>', "from 0 on and increasing"),
+        ('<Blend><Motion file="low.xml" times="2.5"/></Blend>', "2.5 s is not between its ends"),
+        (
+            '<Blend><Motion file="low.xml" at="0"/><Motion file="head.xml" at="1"/></Blend>',
+            "it shares no joint with the",
+        ),
+        ('<Blend><Motion file="odd.blend.xml"/></Blend>', "the file should begin with <SkeletonInterpolator>"),
         ('<Blend><Motion file="nowhere.xml"/></Blend>', "nowhere.xml"),
     ],
 )
@@ -218,6 +224,7 @@ async def test_a_blend_that_cannot_be_used_is_told(
     open_still: OpenStill, assets: Path, content: str, reason: str
 ) -> None:
     (assets / "odd.blend.xml").write_text(content)
+    (assets / "head.xml").write_text(clip((0.0, 0.0), (1.0, 0.1), joint="skullbase"))
     async with open_still(assets) as pilot:
         pilot.perform(act('<blend id="a" name="odd" sbm:wrap-mode="Once"/>'))
         await pilot.advance(1)

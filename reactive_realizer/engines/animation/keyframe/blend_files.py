@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from reactive_realizer.binding.asset_file import XmlElement, asset_error, attribute, read_xml
+from reactive_realizer.engines.animation.faults import BadKeys
 from reactive_realizer.engines.animation.keyframe.blend_space import BlendSpace
 from reactive_realizer.engines.animation.keyframe.clip import Clip
+from reactive_realizer.errors import RealizerError
 
 BLEND: Final = "blend.xml"
 """Suffix of these files."""
@@ -37,9 +39,17 @@ class BlendFile(NamedTuple):
     space: BlendSpace
 
     def marks(self, clips: Sequence[Clip]) -> list[list[float]] | None:
-        """Return the corresponding times of its clips, s of each clip; None if sync points correspond."""
+        """Return the corresponding times of its clips, s of each clip; None if sync points correspond.
+
+        Raises:
+            RealizerError: "bad-keys": a time is not within its clip.
+        """
         if self.times is None:
             return None
+        for clip, own in zip(clips, self.times, strict=True):
+            outside = next((time for time in own if not 0.0 < time < clip.duration), None)
+            if outside is not None:
+                raise RealizerError(BadKeys(animation=clip.name, reason=f"{outside:g} s is not between its ends"))
         return [[clip.times[0] + time for time in own] for clip, own in zip(clips, self.times, strict=True)]
 
 

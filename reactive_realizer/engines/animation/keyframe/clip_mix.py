@@ -9,8 +9,10 @@ import numpy as np
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale
 from reactive_realizer.engines.animation.easing import minimum_jerk
+from reactive_realizer.engines.animation.faults import BadKeys
 from reactive_realizer.engines.animation.keyframe.capture import Array, inverse, product
 from reactive_realizer.engines.animation.keyframe.clip import Clip, continuous
+from reactive_realizer.errors import RealizerError
 
 _SEAM, _LARGEST_SEAM = 0.4, 0.3
 """Time before the end of a loop in which it goes over to its beginning, s, and its limit as a share of the clip."""
@@ -37,8 +39,14 @@ class ClipMix:
 
     @classmethod
     def of(cls, clips: Sequence[Clip], marks: Sequence[Sequence[float]] | None = None) -> "ClipMix":
-        """Mix clips, in the joints that all have; without marks, the sync points that all have correspond."""
+        """Mix clips, in the joints that all have; without marks, the sync points that all have correspond.
+
+        Raises:
+            RealizerError: "bad-keys": they share no joint.
+        """
         shared = frozenset.intersection(*(frozenset(clip.joints) for clip in clips))
+        if not shared:
+            raise RealizerError(BadKeys(animation=clips[-1].name, reason="it shares no joint with the other clips"))
         points = set.intersection(*(set(clip.points) for clip in clips))
         order = sorted(points, key=lambda sync: clips[0].points[sync].time)
         own = marks or [[clip.points[sync].time for sync in order] for clip in clips]
