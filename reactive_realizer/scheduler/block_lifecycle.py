@@ -283,6 +283,7 @@ class BlockLifecycle:
         if not block.state.plays:
             self._revoke(block, time, spared)
             return
+        time = max(time, block.start.value or time)  # it may have started later in this tick
         chosen = [unit for unit in block.live_units if unit.behavior.id not in spared]
         gently = speech is not InterruptSpeech.NOW
         ends = {unit: unit.gentle_end(time, speech) for unit in chosen if gently and unit.begun}

@@ -163,10 +163,11 @@ class TieRelease:
 
 
 def _held_with(peg: TimePeg, rigid: Iterable[PlanUnit]) -> list[TimePeg]:
-    """A peg, and the pegs of rigid behaviors of which a point follows it: these keep their times as a whole."""
+    """A peg, and the other pegs of rigid behaviors of which a point follows it: these keep their times as a whole."""
     followed = _with_followers([peg])
-    ahead = ([point.peg for point in unit.ahead() if not point.peg.pinned] for unit in rigid)
-    return [peg, *(each for pegs in ahead if not followed.isdisjoint(pegs) for each in pegs)]
+    ahead = ([point.peg for point in unit.ahead()] for unit in rigid)
+    others = (each for pegs in ahead if not followed.isdisjoint(pegs) for each in pegs)
+    return [peg, *(each for each in others if each not in followed and not each.pinned)]
 
 
 def _with_followers(pegs: Iterable[TimePeg]) -> set[TimeCell]:

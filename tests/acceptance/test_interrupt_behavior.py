@@ -197,6 +197,21 @@ async def test_a_late_tick_interrupts_at_the_exact_time(pilot: RealizerPilot) ->
     assert not pilot.feedback.reached("talk:s:m")
 
 
+async def test_a_block_that_starts_later_in_the_tick_of_its_interruption_ends_when_it_starts(
+    pilot: RealizerPilot,
+) -> None:
+    stop = '<bmla:interrupt id="i" target="late" start="w:end"/>'
+    pilot.block("stop", f'<wait id="w" duration="0.995"/>{stop}')
+    await pilot.advance(1)
+    pilot.block("late", '<head id="n" lexeme="NOD"/>')
+    await pilot.advance(1)
+    assert pilot.feedback.time("stop:i:start") == 0.995
+    told = [name for name in pilot.feedback.progress if name.startswith("late")]
+    assert (told[0], told[-1]) == ("late:start", "late:end")
+    assert pilot.feedback.time("late:start") == pilot.feedback.time("late:end") == 1.0
+    assert pilot.feedback.status("late") == "INTERRUPTED"
+
+
 async def test_a_speech_continues_when_behaviors_tied_to_its_words_are_interrupted(pilot: RealizerPilot) -> None:
     nods = '<head id="n" lexeme="NOD" start="s:m" end="s:m+1"/><head id="o" lexeme="NOD" start="n:end" end="n:end+1"/>'
     send(pilot, "talk", TALK + nods)
