@@ -288,7 +288,7 @@ class BlockLifecycle:
         gently = speech is not InterruptSpeech.NOW
         ends = {unit: unit.gentle_end(time, speech) for unit in chosen if gently and unit.begun}
         for unit, last in ends.items():
-            if not is_due(unit.time("end"), last):
+            if last > time and not is_due(unit.time("end"), last):
                 self._units.schedule_cut(unit, ScheduledCut(last, time, speech))
         self._cut(block, [unit for unit in chosen if ends.get(unit, time) <= time], time)
 

@@ -197,6 +197,22 @@ async def test_a_late_tick_interrupts_at_the_exact_time(pilot: RealizerPilot) ->
     assert not pilot.feedback.reached("talk:s:m")
 
 
+async def test_what_hangs_on_an_end_that_is_cut_with_it_does_not_come_in_the_past(pilot: RealizerPilot) -> None:
+    """The nod relaxes 0.3 s before the end of the wait; both are interrupted before that."""
+    nod = '<head id="n" lexeme="NOD" start="w:end-1"/><wait id="w" max-wait="2" end="anticipators:t:hit" start="0"/>'
+    pilot.predict("t", "hit", 4.0)
+    pilot.block("b", '<gaze id="z" target="bluebox" start="0" end="3"/>' + nod)
+    await pilot.advance(1.4)
+    stop = '<bmla:interrupt id="i" target="b" exclude="z" speech="word"/>'
+    pilot.block("stop", stop)
+    await pilot.advance(2)
+    times = [pilot.feedback.time(f"b:{point}") for point in ("n:stroke", "n:end", "w:end")]
+    assert times == sorted(times)
+    assert pilot.feedback.time("b:n:end") == pilot.feedback.time("stop:i:start")
+    reported = {message.id: message.time for message in pilot.feedback.of("syncPointProgress")}
+    assert all(pilot.feedback.time(name) >= time - 0.02 for name, time in reported.items())
+
+
 async def test_a_block_that_starts_later_in_the_tick_of_its_interruption_ends_when_it_starts(
     pilot: RealizerPilot,
 ) -> None:
