@@ -94,8 +94,8 @@ class Idle:
         step, self._time = max(0.0, time - self._time) / _STILLING, time
         for side, loose in self._loose.items():
             self._loose[side] = max(0.0, loose - step) if side in busy else min(1.0, loose + step)
-        depth = self._degree * self.courses[IdleParameter.WEIGHT_SHIFT_DEPTH].value(time)
-        turns, root = self._leaning(depth * self.shifts.at(time) * standing)
+        depth = standing * self._degree * self.courses[IdleParameter.WEIGHT_SHIFT_DEPTH].value(time)
+        turns, root = self._leaning(depth * self.shifts.at(time) if depth else 0.0)
         rotations = {**turns, **self.rotations(time)}
         for joint, turn in turns.items():
             if rotations[joint] is not turn:
