@@ -20,10 +20,11 @@ from reactive_realizer.bml.block import (
 )
 from reactive_realizer.bml.extensions import Emit, Noise, lasts
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, OWN, SBM
+from reactive_realizer.bml.ssml_elements import SSML
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.writer import attribute_texts, behavior_element, text_of
 
-_EXTENSIONS: Final = {"ext": BML_EXT, "bmla": BMLA, "bmlt": BMLT, "rr": OWN}
+_EXTENSIONS: Final = {"ext": BML_EXT, "bmla": BMLA, "bmlt": BMLT, "rr": OWN, "ssml": SSML}
 
 
 def document(written: Iterable[BehaviorBlock | DefineProc]) -> str:

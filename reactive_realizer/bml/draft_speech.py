@@ -13,6 +13,7 @@ from lxml import etree
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import TooMuchMarkup, UnknownMark
 from reactive_realizer.bml.smartbody.requests import UNCLOSED_MARK
+from reactive_realizer.bml.ssml_elements import SSML
 from reactive_realizer.bml.ssml_reader import MOST_MARKUP
 from reactive_realizer.bml.ssml_values import LONGEST_BREAK
 from reactive_realizer.bml.sync_ref import SyncRef
@@ -188,7 +189,8 @@ def _describe(
 ) -> None:
     """Describes a speech in SSML: each piece with its mark, the pause before it, and its emphasis."""
     description = source.insert(tree, "description", {"priority": "0", "type": "application/ssml+xml"})
-    speak = source.insert(description, "speak")
+    # In its own namespace, so that what is written of it in BML 1.0 is read again.
+    speak = source.insert(description, f"{{{SSML}}}speak")
     for number, piece in enumerate(pieces):
         if piece.mark:
             _add_last(speak, "mark", {"name": piece.mark}, source)
@@ -203,6 +205,6 @@ def _describe(
 
 
 def _add_last(speak: Tree, name: str, attributes: Mapping[str, str], source: BlockSource) -> Tree:
-    child = etree.SubElement(speak, name, dict(attributes))
+    child = etree.SubElement(speak, f"{{{SSML}}}{name}", dict(attributes))
     source.place(child, speak)
     return child

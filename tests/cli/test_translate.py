@@ -118,6 +118,18 @@ async def test_a_translation_of_clips_of_smartbody_plays_the_same(
     assert np.ptp(frames, axis=0).max() > 0.2
 
 
+def test_accents_and_pauses_of_a_draft_are_still_spoken_in_its_translation(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    accents = '<pitchaccent level="strong" start="s:a" end="s:b"/><boundary start="s:b" end="s:b+0.3"/>'
+    path = tmp_path / "script"
+    path.write_text(f'<bml id="b"><speech id="s"><tm id="a"/>This, <tm id="b"/>not that.{accents}</speech></bml>')
+    path.write_text(translated(path, capsys))
+    assert main(["check", str(path)]) == 0
+    assert '<ssml:break time="0.3s"/>' in path.read_text()
+    assert '<ssml:emphasis level="strong">' in path.read_text()
+
+
 def test_a_translation_of_a_translation_is_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "script"
     path.write_text(SCRIPT)
