@@ -226,7 +226,7 @@ def test_a_clip_is_stretched_to_its_time_point_and_fades() -> None:
     assert isinstance(found, Keyframe)
     assert found.animation == "idle"
     assert {sync: str(ref) for sync, ref in found.syncs.items()} == {"start": "2", "end": "10"}
-    assert found.parameters == {"fadeIn": "0.25", "group": "LEFT_ARM"}
+    assert found.parameters == {"fadeIn": "0.25", "group": "LEFT_ARM", "replacementgroup": "LEFT_ARM"}
 
 
 def test_a_time_reset_replaces_everything_and_each_character_has_a_block() -> None:

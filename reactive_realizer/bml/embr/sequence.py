@@ -286,6 +286,7 @@ class SequenceReader:
         parameters = {fade: f"{min(1.0, share):.4g}" for fade, share in shares.items() if share > 0.0}
         if group is not BodyGroup.WHOLEBODY:
             parameters["group"] = group.value
+        parameters["replacementgroup"] = group.value  # a later clip overrides an earlier one
         return Keyframe(
             **self._common(f"animation{number}", "keyframe", BMLT, clip.node.location),
             syncs=_syncs({"start": self._start + clip.begins, "end": self._start + clip.reached}),
