@@ -68,9 +68,12 @@ def adapt_grab(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites a constraint of the place of a hand, in place."""
+    """Rewrites a constraint of the place of a hand, in place; one without a target only ends another one."""
     drop(tree, "handle", "effector-root", "root", "constraint-type")
     _choose_hand(tree, "effector")
+    if "target" not in tree.attrib:
+        drop(tree, "fade-in", "fade-out")
+        return _nothing(tree, source)
     for name, point, other, sign in (("fade-in", "ready", "start", 1.0), ("fade-out", "relax", "end", -1.0)):
         seconds = take_number(tree, name, source, 0.0, _LONGEST)
         if seconds:

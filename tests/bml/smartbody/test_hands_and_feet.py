@@ -38,6 +38,7 @@ def test_a_reach_has_a_hand_a_place_and_a_duration() -> None:
     [
         '<sbm:reach sbm:action="touch" target="box" sbm:reach-finish="true" stroke="1"/>',
         '<sbm:grab sbm:handle="h" sbm:grab-state="return"/>',
+        '<sbm:constraint effector="r_wrist" sbm:handle="h" sbm:fade-out="0.5"/>',
     ],
 )
 def test_what_only_ends_a_reach_does_nothing_but_has_times(finishes: str) -> None:
