@@ -220,6 +220,21 @@ def test_weights_of_the_face_are_keyframes() -> None:
     assert "skinBlush" in (skin.interpolator or "")
 
 
+def test_a_weight_beyond_its_range_is_named_and_limited() -> None:
+    def shaped(kind: str, key: str, value: float) -> str:
+        return f"BEGIN {kind}_TARGET\n{kind}_KEY:{key}\n{kind}_VALUE:{value}\nEND".replace("SHADER_TARGET", "SHADER")
+
+    poses = [f"TIME_POINT:+500\n{shaped('MORPH', 'ExpSmileClosed', 7)}\n{shaped('SHADER', 'blushing', -0.5)}"]
+    texts = [text for _, text in problems(script(*poses))]
+    assert texts == ["MORPH_VALUE is at most 1 here, not 7.00", "SHADER_VALUE is at least 0 here, not -0.50"]
+    limited = parsed(script(*poses)).block
+    assert limited is not None
+    for face in limited.behaviors:
+        assert isinstance(face, FaceKeyframe)
+        weights = [float(word) for line in (face.interpolator or "").splitlines()[1:-1] for word in line.split()[1:]]
+        assert all(0.0 <= weight <= 1.0 for weight in weights)
+
+
 def test_a_clip_is_stretched_to_its_time_point_and_fades() -> None:
     clip = "BEGIN ANIMATION\nTIME_POINT:10000\nANIMATION_CLIP:idle\nBODY_GROUP:larm\nEND"
     (found,) = block(f"BEGIN K_POSE_SEQUENCE\nSTART:2000\nFADE_IN:2000\n{clip}\nEND").behaviors

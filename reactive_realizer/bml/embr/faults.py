@@ -89,7 +89,7 @@ class NotRealized(ParsingFault):
 
 
 class Limited(ParsingFault):
-    """A value of an autonomous behavior beyond what a body does; it becomes the limit."""
+    """A value beyond what a body or a face does; it becomes the limit."""
 
     code = "embr-limited"
     template = "{key} is {bound} here, not {value}"

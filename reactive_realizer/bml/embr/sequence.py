@@ -10,7 +10,7 @@ from lxml import etree
 from reactive_realizer.bml.attribute_types import Id
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.embr.autonomous import Autonomous, read_autonomous
-from reactive_realizer.bml.embr.faults import BadValue, UnknownName
+from reactive_realizer.bml.embr.faults import BadValue, Limited, UnknownName
 from reactive_realizer.bml.embr.goals import GOALS, read_goal
 from reactive_realizer.bml.embr.nucleus import Nuclei
 from reactive_realizer.bml.embr.syntax import AUTONOMOUS, CLIP, MORPH, POSE, Node
@@ -150,7 +150,7 @@ class SequenceReader:
     def _take_weight(self, at: Timed, node: Node) -> None:
         kind = "MORPH" if node.name == MORPH else "SHADER"
         key = self._notes.text(node, f"{kind}_KEY")
-        value = self._notes.number(node, f"{kind}_VALUE", low=-1.0, high=10.0)
+        value = self._weight(node, f"{kind}_VALUE")
         if kind == "SHADER" and key not in SHADERS:
             place = node.values["SHADER_KEY"].location
             fault = UnknownName(kind="SHADER_KEY", name=quoted(key), known=tuple(SHADERS))
@@ -160,6 +160,15 @@ class SequenceReader:
         steps = self._weights.setdefault((kind, key), [])
         warp = self._warp_of(node, at.node)
         steps.append(_Step(at, value, (), self._feedback([node], steps), warp, node.location))
+
+    def _weight(self, node: Node, name: str) -> float:
+        """The weight of a morph target or shader, 0 to 1; one beyond is named, and becomes the limit."""
+        value = self._notes.number(node, name)
+        limited = min(max(value, 0.0), 1.0)
+        if value != limited:
+            bound = f"{'at most' if limited else 'at least'} {limited:g}"
+            self._notes.add(Limited(key=name, value=value, bound=bound), node.values[name].location)
+        return limited
 
     def _is_beyond(self, part: object, goals: int, place: Location) -> bool:
         """Whether a pose has goals beyond the limit of a body group or a weight; the first such pose is named."""
