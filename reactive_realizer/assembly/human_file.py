@@ -198,9 +198,11 @@ class _Reader:
             raise self._bad(f"{key}.every", f"{spec.every:g} is not from {SHORTEST_PERIOD:g} to {LONGEST_PERIOD:g} s")
         if (spec.trigger == Trigger.EVENT) is not bool(_EVENT.fullmatch(spec.event)):
             raise self._bad(f"{key}.event", "the trigger event needs an anticipator and a point, as in 'partner:nod'")
-        for parsed in parse(spec.document("", "autonomous"), Limits()):
-            for problem in parsed.problems:
-                raise self._bad(f"{key}.behavior", problem.fault.sentence)
+        found = parse(spec.document("", "autonomous"), Limits())
+        for problem in (problem for parsed in found for problem in parsed.problems):
+            raise self._bad(f"{key}.behavior", problem.fault.sentence)
+        if len(found) != 1 or found[0].block is None or not found[0].block.behaviors:
+            raise self._bad(f"{key}.behavior", "it must be one or more behaviors of BML")
         return spec
 
     def target(self, key: str, table: Any) -> TargetSpec:

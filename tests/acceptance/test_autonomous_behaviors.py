@@ -135,3 +135,11 @@ async def test_a_session_with_them_is_replayed_byte_by_byte(tmp_path: Path) -> N
         await replay(pilot.realizer, session)
         assert pilot.feedback.raw == played
     assert len(played) > 20
+
+
+@pytest.mark.parametrize("written", ["", "<!-- nothing -->", "</bml><bml id='x'>"])
+async def test_something_else_than_behaviors_is_refused(tmp_path: Path, written: str) -> None:
+    table = f'[character.alice.autonomous.x]\nbehavior = "{written}"'
+    with pytest.raises(RealizerError, match=r"autonomous.x.behavior: it must be one or more behaviors of BML"):
+        async with open_scene(scene(tmp_path, table)):
+            pass
