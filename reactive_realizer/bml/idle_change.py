@@ -25,13 +25,13 @@ class IdleParameter(StrEnum):
     BLINK_RATE = "BLINK_RATE"
     """Blinks per minute; 0 for none."""
     BLINK_DEPTH = "BLINK_DEPTH"
-    """How far blinks close the lids, relative to usual blinks."""
+    """Depth of blinks, relative to usual ones."""
     GLANCE_RATE = "GLANCE_RATE"
     """Glances aside per minute, of eyes without a target; 0 for none."""
     WEIGHT_SHIFT_RATE = "WEIGHT_SHIFT_RATE"
     """Shifts of the weight per minute, of a standing figure; 0 for none."""
     WEIGHT_SHIFT_DEPTH = "WEIGHT_SHIFT_DEPTH"
-    """How far the weight goes to a side, relative to usual shifts."""
+    """Width of shifts of the weight, relative to usual ones."""
 
 
 MOSTS: Final[Mapping[IdleParameter, float]] = MappingProxyType(

@@ -10,7 +10,7 @@ from reactive_realizer.client.vh_message import VhMessage
 
 
 class FeedbackForm(StrEnum):
-    """How feedback on behaviors is sent: not at all, as that of BML 1.0, or as SmartBody does if it is asked to."""
+    """The form in which a bridge sends feedback on behaviors: none, that of BML 1.0, or that of SmartBody."""
 
     NONE = "none"
     BML = "bml"

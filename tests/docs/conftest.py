@@ -28,6 +28,8 @@ _FENCE = re.compile(
     r"(?:^<!-- (?P<note>[^>\n]*) -->\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL
 )
 
+_TIMED = re.compile(r"([\w:,-]+) ([\d.]+)")
+
 
 @dataclass(frozen=True, slots=True)
 class Fence:
@@ -46,6 +48,15 @@ class Fence:
 
     def __str__(self) -> str:
         return f"{self.page}:{self.line}"
+
+    def noted(self, word: str) -> str:
+        """What the note says after a word, such as ``plays: b:g 1.5; warns: b:h``; empty if it does not have it."""
+        parts = (part.removeprefix(f"{word}: ") for part in self.note.split("; ") if part.startswith(word))
+        return next(parts, "")
+
+    def times(self, word: str) -> list[tuple[str, float]]:
+        """The names that the note lists after a word, each with a time, s."""
+        return [(name, float(time)) for name, time in _TIMED.findall(self.noted(word))]
 
 
 class QuickClock(SystemClock):

@@ -1,7 +1,5 @@
 """docs/greta.md: its examples play as the page says."""
 
-import re
-
 import numpy as np
 import pytest
 
@@ -12,12 +10,6 @@ from .conftest import Fence, fences
 PAGE = "docs/greta.md"
 EXAMPLES = fences(PAGE, "xml")
 
-_TIMED = re.compile(r"([\w:]+) ([\d.]+)")
-
-
-def _part(example: Fence, word: str) -> str:
-    return next((part.removeprefix(f"{word}: ") for part in example.note.split("; ") if part.startswith(word)), "")
-
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=str)
 async def test_an_example_plays_at_the_times_and_with_the_warnings_of_the_page(example: Fence) -> None:
@@ -25,11 +17,11 @@ async def test_an_example_plays_at_the_times_and_with_the_warnings_of_the_page(e
         pilot.watch()
         pilot.perform(example.text)
         await pilot.advance(4)
-        plays = _TIMED.findall(_part(example, "plays"))
+        plays = example.times("plays")
         assert plays
         for name, time in plays:
-            assert pilot.feedback.time(f"{name}:end") == pytest.approx(float(time), abs=0.05)
-        announced = [name for name in _part(example, "warns").split(", ") if name]
+            assert pilot.feedback.time(f"{name}:end") == pytest.approx(time, abs=0.05)
+        announced = [name for name in example.noted("warns").split(", ") if name]
         assert [id_ for id_, _ in pilot.feedback.warnings] == announced
         shown = [np.concatenate((frame.rotations.ravel(), frame.weights)) for frame in pilot.frames["alice"]]
         assert np.ptp(shown, axis=0).max() > 0.05

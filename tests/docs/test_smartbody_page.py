@@ -1,6 +1,5 @@
 """docs/smartbody.md: its examples play as the page says, each moving the character."""
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -13,12 +12,6 @@ from .conftest import Fence, fences
 
 PAGE = "docs/smartbody.md"
 EXAMPLES = fences(PAGE, "xml")
-
-_TIMED = re.compile(r"([\w:]+) ([\d.]+)")
-
-
-def part(example: Fence, word: str) -> str:
-    return next((part.removeprefix(f"{word}: ") for part in example.note.split("; ") if part.startswith(word)), "")
 
 
 @pytest.fixture
@@ -40,16 +33,16 @@ async def test_an_example_plays_at_the_times_and_with_the_warnings_of_the_page(e
         pilot.perform(example.text)
         await pilot.advance(10)
         told = pilot.feedback
-        plays = _TIMED.findall(part(example, "plays"))
+        plays = example.times("plays")
         assert plays
         for name, time in plays:
-            assert told.time(f"{name}:end") == pytest.approx(float(time), abs=0.05)
-        announced = [name for name in part(example, "warns").split(", ") if name]
+            assert told.time(f"{name}:end") == pytest.approx(time, abs=0.05)
+        announced = [name for name in example.noted("warns").split(", ") if name]
         assert [id_ for id_, _ in told.warnings] == announced
-        for block, status in [part(example, "status").split()] if part(example, "status") else []:
+        for block, status in [example.noted("status").split()] if example.noted("status") else []:
             assert told.status(block) == status
         events = [element.get("name") for xml in told.messages for element in xml.element.iter("{*}event")]
-        assert events == ([part(example, "event")] if part(example, "event") else events)
+        assert events == ([example.noted("event")] if example.noted("event") else events)
         shown = [
             np.concatenate((frame.root, frame.rotations.ravel(), frame.weights)) for frame in pilot.frames["alice"]
         ]

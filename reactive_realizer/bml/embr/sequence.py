@@ -171,7 +171,13 @@ class SequenceReader:
         return limited
 
     def _is_beyond(self, part: object, goals: int, place: Location) -> bool:
-        """Whether a pose has goals beyond the limit of a body group or a weight; the first such pose is named."""
+        """Count the goals of a pose, and return whether they exceed the limit; the first pose that exceeds it is named.
+
+        Args:
+            part: the body group or the weight that has the goals.
+            goals: their number.
+            place: of the pose.
+        """
         before, most = self._goals.get(part, 0), self._notes.most_goals
         self._goals[part] = before + goals
         if before <= most < self._goals[part]:

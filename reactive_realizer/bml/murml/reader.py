@@ -411,7 +411,7 @@ def _counting(kind: str) -> str:
 
 
 def _goes_on(ends: Mapping[tuple[Slot, Scope], SlotValue], after: Iterable[Track]) -> bool:
-    """Whether every track begins with the value with which the last one of the same slot ended."""
+    """Return whether every track begins with the last value of the track before it in its slot."""
     return all(ends.get((track.slot, track.scope)) == track.marks[0].value for track in after)
 
 

@@ -98,7 +98,7 @@ def left_to_plugins(constraint: Tree, source: BlockSource) -> list[Fault]:
 
 
 def _kind(constraint: Tree) -> str:
-    """What a constraint keeps: the place of its effector or, with other words, its rotation, or both."""
+    """Return the word for what a constraint keeps fixed: the place of its effector, its rotation, or both."""
     return str(constraint.get(f"{{{SBM}}}constraint-type", constraint.get("constraint-type", _PLACE))).lower()
 
 
