@@ -11,12 +11,12 @@ NOT_WHOLE = {
     "SBBmlProcessor.cpp": "unexpected text",
     "FacialMovementDemo.py": "unexpected text",
     "InitCharacterBehaviorBMLMapping.py": "start='$ready_time' of <faceFacs>",
+    "locomotionBlendCEGUI.py": "y=''+str(turnAngle)+'' of <blend>",
 }
 """Pieces of programs that are no BML as they stand, and what is said of them."""
 
 
 WITHOUT_COUNTERPART = {
-    "locomotionBlendCEGUI.py": "y, mode, sbm:wrap-mode",
     "KinectSimpleDemo.py": "x, y",
     "OgreDemo.js": "x, y",
 }
