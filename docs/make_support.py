@@ -96,7 +96,7 @@ _NOTES = {
     "emit event": "its content, of any kind, is for planners",
     "glance left": "degrees, as the character sees it",
     "glance up": "degrees",
-    "release mode": "the hands that let go of what they carry",
+    "release mode": "the hands that let go of what they carry or [hold on to](bml.md#hands-that-go-to-their-target)",
     "idleChange parameter": "times per minute, at most 120, or 30 for the weight; depths relative to the usual, at \
 most 5 for breaths, 1 for blinks and 2 for the weight",
     "idleChange value": "reached at the end, evenly, and kept until another change",

@@ -97,7 +97,7 @@ class ContentReader:
         return [child for child in children if child[0] not in lips]
 
     def _persistent(self) -> list[Behavior]:
-        """The persistent behaviors: controllers, loops; gazes, postures, noise of drafts; if their end is not tied.
+        """The persistent behaviors, those that last, and gazes, postures and noise of drafts, if their end is not tied.
 
         Thesis 6.3 and C.4.
         """

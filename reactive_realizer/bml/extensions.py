@@ -14,9 +14,10 @@ from typing import ClassVar, Final
 from reactive_realizer.bml.attribute_types import BehaviorId, Enumeration, EventName, Float, Id, IdList, Integer, Text
 from reactive_realizer.bml.attributes import attribute
 from reactive_realizer.bml.behavior import Behavior, SyncPoints
+from reactive_realizer.bml.behaviors import REACH, Pointing
 from reactive_realizer.bml.names import BMLA, BMLT
 from reactive_realizer.bml.sync_ref import SyncRef
-from reactive_realizer.bml.vocabulary import FacePart, InterruptSpeech, Mode
+from reactive_realizer.bml.vocabulary import FacePart, InterruptSpeech, Mode, Reach
 
 _START_AND_END: SyncPoints = ("start", "end")
 _FACE_POINTS: SyncPoints = ("start", "attackPeak", "relax", "end")
@@ -369,6 +370,10 @@ _LOOP: Final = "loop"
 
 
 def lasts(behavior: Behavior) -> bool:
-    """Return whether a behavior is persistent, in any document, if its end is not tied: a controller, or a loop."""
+    """Return whether a behavior is persistent, in any document, if its end is not tied.
+
+    These are controllers, loops, and hands that hold on to a target.
+    """
     looping = isinstance(behavior, Keyframe) and behavior.parameters.get(_LOOP, "").lower() in ("true", "1")
-    return looping or isinstance(behavior, Controller)
+    holding = isinstance(behavior, Pointing) and behavior.extensions.get(REACH, "").upper() == Reach.HOLD
+    return looping or holding or isinstance(behavior, Controller)

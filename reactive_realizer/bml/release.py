@@ -1,4 +1,4 @@
-"""Hands that let go of what they carry, an extension of BML."""
+"""Hands that let go of what they carry or hold on to, an extension of BML."""
 
 from dataclasses import dataclass, field
 from typing import ClassVar
@@ -12,7 +12,7 @@ from reactive_realizer.bml.vocabulary import Mode
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Release(Behavior):
-    """Lets go of what hands carry, at its start: it stays where it is.
+    """Lets go of what hands carry, at its start: it stays where it is. Ends the pointings in which they hold a target.
 
     Attributes:
         mode: the hands.

@@ -28,6 +28,8 @@ class Reach(StrEnum):
     """The target follows the hand from ready on."""
     PUT = "PUT"
     """What follows the hand stays at the target, which is a place, from ready on."""
+    HOLD = "HOLD"
+    """As TOUCH, and without a tied end, until the hand is released or used by another behavior."""
 
 
 class Influence(StrEnum):

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from reactive_realizer.bml.names import OWN
+from reactive_realizer.bml.names import BMLA, OWN
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.testing.pilot import RealizerPilot
 
@@ -140,8 +140,59 @@ async def test_eyes_follow_what_a_hand_carries(pilot: RealizerPilot) -> None:
     assert pilot.feedback.status("b") == "DONE"
 
 
+async def test_a_hand_holds_on_to_a_target_that_moves_long_after_its_block(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("hold", 'ready="1"'))
+    pilot.block("c", '<head id="h" lexeme="NOD"/>', composition="APPEND")
+    await pilot.advance(20)
+    pilot.move("box", HIGH)
+    await pilot.advance(2)
+    assert gaps(pilot, "r", BOX, 1.0, 19.9).max() < NEAR
+    assert gaps(pilot, "r", HIGH, 21.0, 22.0).max() < NEAR
+    assert pilot.feedback.time("b:p:strokeEnd") == 1.0
+    assert not pilot.feedback.reached("b:p:end")
+    assert pilot.feedback.status("c") == "DONE"
+
+
+@pytest.mark.parametrize(
+    "ends",
+    [
+        f'<rr:release xmlns:rr="{OWN}" id="e" mode="RIGHT_HAND"/>',
+        f'<rr:release xmlns:rr="{OWN}" id="e" mode="BOTH_HANDS"/>',
+        '<gesture id="e" lexeme="BEAT" mode="RIGHT_HAND"/>',
+        f'<interrupt xmlns="{BMLA}" id="e" target="b"/>',
+    ],
+    ids=["release", "release of both hands", "gesture", "interrupt"],
+)
+async def test_a_hold_ends_when_its_hand_is_released_or_used_or_its_block_is_interrupted(
+    pilot: RealizerPilot, ends: str
+) -> None:
+    pilot.block("b", reach("hold", 'mode="RIGHT_HAND" ready="1"'))
+    await pilot.advance(5)
+    pilot.block("c", ends)
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:p:end") == pytest.approx(5.0, abs=0.011)
+    assert gaps(pilot, "r", BOX, 8.5, 9.0).min() > 0.3
+
+
+async def test_what_uses_the_other_hand_leaves_a_hold(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("hold", 'mode="RIGHT_HAND" ready="1"'))
+    await pilot.advance(2)
+    pilot.block("c", f'<gesture id="g" lexeme="BEAT"/><rr:release xmlns:rr="{OWN}" id="e" mode="LEFT_HAND"/>')
+    await pilot.advance(4)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.status("c") == "DONE"
+    assert gaps(pilot, "r", BOX, 1.0, 6.0).max() < NEAR
+
+
+async def test_a_hold_with_a_tied_end_ends_then(pilot: RealizerPilot) -> None:
+    pilot.block("b", reach("hold", 'start="0" end="3"'))
+    await pilot.advance(4)
+    assert pilot.feedback.time("b:p:end") == 3.0
+
+
 async def test_an_unknown_word_drops_the_behavior(pilot: RealizerPilot) -> None:
     pilot.block("b", reach("throw"))
     await pilot.advance(0.5)
     (warning,) = pilot.feedback.of("warningFeedback")
-    assert "reach='throw' of <pointing>: not one of TOUCH, TAKE, PUT" in warning.text
+    assert "reach='throw' of <pointing>: not one of TOUCH, TAKE, PUT, HOLD" in warning.text

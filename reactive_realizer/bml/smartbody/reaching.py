@@ -68,23 +68,28 @@ def adapt_grab(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites a constraint of the place of a hand, in place; one without a target only ends another one."""
+    """Rewrites a constraint of the place of a hand, in place; one without a target releases the hand from another one.
+
+    It persists without an end.
+    """
     drop(tree, "handle", "effector-root", "root", "constraint-type")
     _choose_hand(tree, "effector")
+    fades = {name: take_number(tree, name, source, 0.0, _LONGEST) for name in ("fade-in", "fade-out")}
     if "target" not in tree.attrib:
-        drop(tree, "fade-in", "fade-out")
-        return _nothing(tree, source)
-    for name, point, other, sign in (("fade-in", "ready", "start", 1.0), ("fade-out", "relax", "end", -1.0)):
-        seconds = take_number(tree, name, source, 0.0, _LONGEST)
-        if seconds:
-            tie(tree, point, other, sign * seconds)
+        return _release(tree, source)
+    if fade_in := fades["fade-in"]:
+        tie(tree, "ready", "start", fade_in)
     if {"relax", "end"} & set(tree.keys()):
+        if fade_out := fades["fade-out"]:
+            tie(tree, "relax", "end", -fade_out)
         tree.set("start", tree.get("start", "0"))  # the hand stays at its target meanwhile
-    return _go(tree, Reach.TOUCH, source)
+    return _go(tree, Reach.HOLD, source)
 
 
 def is_of_hand(constraint: Tree) -> bool:
-    """Return whether a constraint of SmartBody keeps a hand at a place."""
+    """Return whether a constraint of SmartBody keeps a hand at a place, or ends others, whatever their hand is."""
+    if not {"effector", "target"} & set(constraint.keys()):
+        return _kind(constraint) == _PLACE
     side, _, joint = joint_named(constraint.get("effector", "")).partition("_")
     return side in _HANDS and joint.startswith(_OF_HANDS) and _kind(constraint) == _PLACE
 

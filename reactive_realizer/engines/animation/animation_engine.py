@@ -41,7 +41,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
-from reactive_realizer.engine.effects import MovePoints, ReportFall, Warn
+from reactive_realizer.engine.effects import EndUnit, ReportFall, Request, Warn
 from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engine.player import height
@@ -82,6 +82,7 @@ from reactive_realizer.engines.animation.motion_unit import (
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
 from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionMotionUnit, LocomotionUnit
 from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
+from reactive_realizer.engines.animation.motions.release import ReleaseMotionUnit
 from reactive_realizer.engines.animation.motions.transition import TransitionMotionUnit, TransitionUnit
 from reactive_realizer.engines.animation.persistent_poses import PersistentPoses
 from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
@@ -191,6 +192,8 @@ class AnimationEngine(DefaultEngine):
         self._predictor = AnimationPredictor(
             context.humanoid.avatar.skeleton, self._base, lambda: self.player.units, self._history
         )
+        # Ends of holds, because a behavior releases their hands.
+        self._released: list[EndUnit] = []
         self._motion_context = self._new_motion_context(context.graph)
         self.extensions = self._library.extensions
 
@@ -433,11 +436,15 @@ class AnimationEngine(DefaultEngine):
         playing = self._playing()
         return bool(self._controlling(playing) or self._walks()) or any(unit.motion.steps for unit in playing)
 
-    def requests(self, tick: Tick) -> tuple[MovePoints, ...]:
-        """Return the moves of points: locomotion arrives at another time, or a temporal extent has changed."""
+    def requests(self, tick: Tick) -> tuple[Request, ...]:
+        """Return the moves of points: locomotion arrives at another time, or a temporal extent has changed.
+
+        Hands that are released no longer hold on to a target.
+        """
         arrivals = (move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
         slowed = (move for unit in self._playing() for move in unit.moves(tick.time, partial(self._awaited_from, unit)))
-        return (*arrivals, *slowed)
+        released, self._released = tuple(self._released), []
+        return (*arrivals, *slowed, *released)
 
     def _awaited_from(self, unit: AnimationUnit) -> Time:
         """Return the first start of a behavior that needs the limbs of a unit after its relax; None if none does."""
@@ -522,6 +529,9 @@ class AnimationEngine(DefaultEngine):
         yield from (gaze for _, gaze in sorted(gazing, key=itemgetter(0)))
 
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
+        if isinstance(unit.motion, ReleaseMotionUnit) and sync == "start":
+            holding = (other for other in self._playing() if other.holds_on and other.resources & unit.motion.released)
+            self._released += [EndUnit(other, time) for other in holding]
         self._note_gaze_change(unit, time)
         self._late_hands.note(unit, sync, time)
         if sync == "relax" and unit.motion.kind is LayerKind.GESTURE:
@@ -534,13 +544,17 @@ class AnimationEngine(DefaultEngine):
             self._eye_controller.note_change(time)
 
     def _claimed(self, unit: AnimationUnit) -> frozenset[str]:
-        """Return the resources that later behaviors of the same block name, and need before a unit only retracts."""
+        """Return the resources that are better left to others.
+
+        Later behaviors of the same block name them, and need them before a unit only retracts; or hands hold a target.
+        """
         until = unit.time("relax" if "relax" in unit.timing.points else "end")
         waiting = (other for other in self.player.units if other.block == unit.block and not other.begun)
         naming = (other for other in waiting if other is not unit and getattr(other.behavior, "mode", None) is not None)
         starts = ((other, other.start_and_end[0]) for other in naming)
         claims = (other.resources for other, start in starts if start is not None and (until is None or start < until))
-        return frozenset[str]().union(*claims)
+        holds = (other.resources for other in self._playing() if other.holds_on and other is not unit)
+        return frozenset[str]().union(*claims, *holds)
 
     def _hands(self, now: GlobalTime) -> Body | None:
         rest = hands = self._rest.body

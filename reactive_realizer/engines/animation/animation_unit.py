@@ -85,7 +85,7 @@ class MotionContext:
             are made or not; None if they are at rest.
         passed: called when a unit passes a sync point.
         released: called when a unit ends, to take over its joints.
-        claimed: returns the resources that later behaviors of the same block name, and need while a unit plays.
+        claimed: returns the resources that are better left to others while a unit plays.
         switch: called with joints, and the time until which they go over to another motion (`Humanoid.switch`).
         graph: of the cells of parameters.
     """
@@ -177,8 +177,8 @@ class AnimationUnit(PlanUnit):
     def settle(self, taken: frozenset[str]) -> None:
         """Choose the candidate to play (thesis 8.17).
 
-        If one hand is busy, or a later behavior of the block names it, use the other; if there is little time, a
-        shorter motion.
+        If one hand is busy, holds on to a target, or is named by a later behavior of the block, use the other; if there
+        is little time, a shorter motion.
         """
         start, end = self.start_and_end
         time = None if start is None or end is None else end - start
@@ -240,8 +240,15 @@ class AnimationUnit(PlanUnit):
         times = (point.peg.value for point in self._exits())
         return min((GlobalTime(at) for at in times if at is not None and at >= time), default=time)
 
+    @property
+    def holds_on(self) -> bool:
+        """Whether its hands are to stay at a target until it is ended."""
+        return self.timing.persistent and isinstance(self.behavior, Pointing)
+
     def subsiding(self, time: GlobalTime) -> bool:
-        """Return whether a successor may take over: also at an exit point."""
+        """Return whether a successor may take over: also at an exit point, and from hands that have come to stay."""
+        if self.holds_on and self.only_persists:
+            return True
         passed = (point.peg.value for point in self._exits() if point.fired)
         leaving = any(at is not None and abs(at - time) <= RESOLUTION for at in passed)
         return leaving or super().subsiding(time)

@@ -38,7 +38,6 @@ def test_a_reach_has_a_hand_a_place_and_a_duration() -> None:
     [
         '<sbm:reach sbm:action="touch" target="box" sbm:reach-finish="true" stroke="1"/>',
         '<sbm:grab sbm:handle="h" sbm:grab-state="return"/>',
-        '<sbm:constraint effector="r_wrist" sbm:handle="h" sbm:fade-out="0.5"/>',
     ],
 )
 def test_what_only_ends_a_reach_does_nothing_but_has_times(finishes: str) -> None:
@@ -52,9 +51,11 @@ def test_what_only_ends_a_reach_does_nothing_but_has_times(finishes: str) -> Non
         ('<sbm:grab sbm:release-pawn="TRUE" sbm:grab-type="left"/>', Mode.LEFT_HAND),
         ('<sbm:reach sbm:action="put-down" sbm:reach-finish="true" target="box"/>', Mode.BOTH_HANDS),
         ('<sbm:reach sbm:action="put-down" sbm:reach-type="right"/>', Mode.RIGHT_HAND),
+        ('<sbm:constraint effector="r_wrist" sbm:handle="h" sbm:fade-out="0.5"/>', Mode.RIGHT_HAND),
+        ('<sbm:constraint sbm:handle="h"/>', Mode.BOTH_HANDS),
     ],
 )
-def test_hands_let_go_of_what_they_carry(releases: str, mode: Mode) -> None:
+def test_hands_let_go_of_what_they_carry_or_hold_on_to(releases: str, mode: Mode) -> None:
     release = only(releases)
     assert isinstance(release, Release)
     assert (release.mode, dict(release.syncs)) == (mode, {})
@@ -64,16 +65,22 @@ def test_a_grab_takes_its_target() -> None:
     assert only('<sbm:grab target="box"/>').extensions[REACH] == "TAKE"
 
 
-def test_a_constraint_of_a_wrist_touches_its_target_with_that_hand() -> None:
+def test_a_constraint_of_a_wrist_holds_its_target_with_that_hand_until_its_end() -> None:
     touch = only('<sbm:constraint id="c" effector="l_wrist" target="box" sbm:fade-in="0.5" sbm:fade-out="1" end="4"/>')
     assert isinstance(touch, Pointing)
-    assert (touch.mode, touch.extensions[REACH]) == (Mode.LEFT_HAND, "TOUCH")
+    assert (touch.mode, touch.extensions[REACH], touch.persistent) == (Mode.LEFT_HAND, "HOLD", False)
     assert {point: str(ref) for point, ref in touch.syncs.items()} == {
         "end": "4",
         "ready": "c:start+0.5",
         "relax": "c:end-1",
         "start": "0",
     }
+
+
+def test_a_constraint_without_an_end_persists() -> None:
+    touch = only('<sbm:constraint id="c" effector="l_wrist" target="box" sbm:fade-in="0.5" sbm:fade-out="1"/>')
+    assert touch.persistent
+    assert {point: str(ref) for point, ref in touch.syncs.items()} == {"ready": "c:start+0.5"}
 
 
 @pytest.mark.parametrize(("effector", "mode"), [("JtWristRt", Mode.RIGHT_HAND), ("l_thumb3", Mode.LEFT_HAND)])

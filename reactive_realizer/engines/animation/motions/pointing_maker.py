@@ -13,6 +13,7 @@ from reactive_realizer.engines.animation.faults import NoJoints, NoSuchReach, No
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, TargetLocator, target_locator
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import EXPRESSIVITY_RANGES
+from reactive_realizer.engines.animation.motions.gesture import HOLD
 from reactive_realizer.engines.animation.motions.pointing import (
     DEFAULTS,
     HAND,
@@ -62,7 +63,8 @@ class PointingMaker:
         seen = target if facing is None else lambda time=None: facing.turned(target(time))
         chosen = self._chosen(arms, sides, behavior, seen) if sides else self._free(arms, behavior, seen)
         given = parameter_values(request.parameters, {**RANGES, **EXPRESSIVITY_RANGES})
-        parameters = {**DEFAULTS, **self._context.expressivity.parameters, **given}
+        stay = {HOLD: 0.0} if behavior.persistent else {}  # it begins to persist when it has arrived
+        parameters = {**DEFAULTS, **self._context.expressivity.parameters, **given, **stay}
         carries = action in (Reach.TAKE, Reach.PUT)
         arrived = partial(self._arrive, action, behavior.target, chosen) if carries else None
         return PointingMotionUnit(behavior.target, chosen, target, humanoid.expected, rest, parameters, facing, arrived)

@@ -1,4 +1,4 @@
-"""Hands that let go of what they carry, as motions that move nothing."""
+"""Hands that let go of what they carry or hold on to, as motions that move nothing."""
 
 from collections.abc import Sequence
 
@@ -9,7 +9,7 @@ from reactive_realizer.embodiment.pose import LayerKind
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engines.animation.faults import NoJoints, WrongElement
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
-from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit
+from reactive_realizer.engines.animation.motion_unit import Moment, MotionPose, MotionUnit, arms_used
 from reactive_realizer.engines.animation.motions.touching_arm import TouchingArm
 from reactive_realizer.errors import RealizerError
 
@@ -17,20 +17,26 @@ _SIDES = {Mode.LEFT_HAND: "l", Mode.RIGHT_HAND: "r", Mode.BOTH_HANDS: "lr"}
 
 
 class ReleaseMotionUnit(MotionUnit):
-    """Lets go of what some joints carry when it starts."""
+    """Lets go of what some joints carry when it starts.
+
+    Attributes:
+        released: the arms, as resources.
+    """
 
     kind = LayerKind.ADDITIVE
     joints = frozenset()
     preferred_duration = 0.1
 
-    def __init__(self, world: World, holders: Sequence[str]) -> None:
+    def __init__(self, world: World, holders: Sequence[str], released: frozenset[str]) -> None:
         """Plan a release.
 
         Args:
             world: with what is carried.
             holders: the joints that carry it, ``alice:r_middle3``.
+            released: the arms, as resources.
         """
         self.parameters = {}
+        self.released = released
         self._world = world
         self._holders = holders
 
@@ -58,4 +64,7 @@ class ReleaseMaker:
         arms = [TouchingArm(skeleton, side) for side in _SIDES[behavior.mode]]
         if missing := [joint for arm in arms for joint in arm.missing]:
             raise RealizerError(NoJoints(element=behavior.name, joints=tuple(missing)))
-        return ReleaseMotionUnit(self._context.world, [f"{self._context.character}:{arm.holder}" for arm in arms])
+        holders = [f"{self._context.character}:{arm.holder}" for arm in arms]
+        return ReleaseMotionUnit(
+            self._context.world, holders, arms_used(frozenset().union(*(arm.joints for arm in arms)))
+        )
