@@ -1,6 +1,6 @@
 """The peg board: the pegs of all characters, by name."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from typing import Any
 
@@ -70,6 +70,10 @@ class PegBoard:
     def add_unnamed(self, block: BlockKey, pegs: Iterable[TimePeg]) -> None:
         """Register unnamed pegs on which only pegs of a block depend, and which are removed with it."""
         self._unnamed.setdefault(block, []).extend(pegs)
+
+    def unnamed(self, block: BlockKey) -> Sequence[TimePeg]:
+        """The unnamed pegs of a block."""
+        return self._unnamed.get(block, ())
 
     def replace(self, key: PegKey, peg: TimePeg) -> None:
         """Within a transaction, give a name to another peg; dependents of the old one then depend on the new one."""

@@ -322,7 +322,7 @@ class LateTiePeg(TimePeg):
     """A peg that follows a time from outside while a block that waits can meet the ties to it.
 
     If it comes less than ``least`` (s) after the start of the block, the ties are late: they are met ``earliest`` (s)
-    after the start.
+    after the start. Once the block has started, the peg has the time from outside.
     """
 
     __slots__ = ("earliest_met", "least")
@@ -335,6 +335,11 @@ class LateTiePeg(TimePeg):
         self.least, self.earliest_met = least, earliest
         super().__init__(graph, name, (outside, start), unless_late(least, earliest))
 
+    def start(self) -> None:
+        """Within a transaction, have the time from outside from now on."""
+        if not self.pinned:
+            self.rebind(self.dependencies[:1], shifted_by(0.0))
+
     @property
     def parameters(self) -> Mapping[str, object]:
         """``least`` and ``earliest``, s after the start of the block."""
@@ -342,12 +347,15 @@ class LateTiePeg(TimePeg):
 
     def _deciding(self) -> tuple[Link, ...]:
         """The start of the block if the ties are late, otherwise the time from outside."""
-        outside, start = self.links[:2]
-        return (outside if outside.time == self.value else start,)
+        outside, *start = self.links
+        return (outside,) if outside.time == self.value else tuple(start)
 
     def _rule(self, links: Sequence[Link]) -> str:
-        """``outside, or start + earliest if it is before start + least``."""
-        outside, start = links
+        """``outside``, and, until the block starts, ``or start + earliest if it is before start + least``."""
+        outside, *others = links
+        if not others:
+            return outside.name
+        (start,) = others
         return (
             f"{outside.name}, or {start.name} {self.earliest_met:+g} s if it is before {start.name} {self.least:+g} s"
         )

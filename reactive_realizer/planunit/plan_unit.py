@@ -371,12 +371,15 @@ class PlanUnit:
     def earliest(self, now: GlobalTime) -> Iterator[tuple[SyncPoint, GlobalTime]]:
         """The points ahead that its body cannot reach at once, each with the earliest time at which it can.
 
-        A unit that is not about to begin has none.
+        A unit that is not about to begin has none. In a late tick, a point that its body has reached since the
+        tick before has the time at which it can have been reached.
         """
         start, ahead = self.points[0].peg.value, self.ahead()
         if not any(self.shortest) or len(self.points) <= len(self.shortest) or not ahead or not is_due(start, now):
             return
         time, first, needs = now, len(self.points) - len(ahead), self._needs()
+        if first > 0 and self.progress(now) >= 1.0 and (began := self.points[first - 1].peg.value) is not None:
+            yield ahead[0], min(now, GlobalTime(began + needs[first - 1]))
         for index, point in enumerate(ahead, first):
             if index > 0:
                 left = 1.0 - self.progress(now) if index == first else 1.0

@@ -9,7 +9,7 @@ from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimeCell
+from reactive_realizer.pegboard.time_peg import LateTiePeg, TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
@@ -331,6 +331,9 @@ class BlockLifecycle:
             self._transitions.take(block, BlockEvent.START, time)
             if plan is not None:
                 self._replace_plan(block, plan, now)
+            for peg in self._board.unnamed(block.key):
+                if isinstance(peg, LateTiePeg):
+                    peg.start()
         block.started_at = now
         self._units.touch(block.key)
         for unit in block.units:

@@ -292,7 +292,8 @@ class UnitLifecycle:
                 time = point.peg.value
                 if time is None or not has_passed(time, earliest) or (point.peg.pinned and is_due(time, now)):
                     continue
-                unit.hurries[point.id] = Hurry(need=earliest - now, room=max(0.0, time - now))
+                if earliest > now:
+                    unit.hurries[point.id] = Hurry(need=earliest - now, room=max(0.0, time - now))
                 self._part(unit, point)
                 point.peg.keep_after(earliest)
                 held = True

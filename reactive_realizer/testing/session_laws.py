@@ -1,6 +1,7 @@
 """What holds in any session, whatever is sent: laws of its feedback, of its log, and of the blocks left at its end."""
 
 import logging
+from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import pairwise
@@ -72,8 +73,10 @@ class SessionLaws:
         self.ended = 0
         self.tick = _TICK
         self._playing: dict[BlockKey, _Told] = {}
-        self._early: dict[tuple[BlockKey, str, str], str] = {}
+        self._early: defaultdict[BlockKey, dict[tuple[str, str], str]] = defaultdict(dict)
         """What came earlier than predicted, or without a prediction, and is allowed if it was cut."""
+        self._whole: defaultdict[BlockKey, list[set[tuple[str, str]]]] = defaultdict(list)
+        """The points that were not cut, of blocks that have ended and have not told it: an id may be used again."""
         self._predicted: dict[BlockKey, list[tuple[GlobalTime, PredictionFeedback]]] = {}
         """The last prediction of each block, and those before it in the same tick: an id may be used again in it.
 
@@ -98,17 +101,14 @@ class SessionLaws:
             self.note("equation", now, f"{message.id}: {message.text}")
 
     def check_units(self, block: BMLBlock) -> None:
-        """Check the times of the behaviors of a block that ended; only what was cut may have come early."""
+        """Check the durations of the behaviors of a block that ended, and which of its points were cut."""
         now = GlobalTime(0.0) if block.end.value is None else block.end.value
+        points = ((unit.behavior.id, point) for unit in block.units for point in unit.points)
+        self._whole[block.key].append({(id_, point.id) for id_, point in points if not point.cut})
         for unit in block.units:
-            for point in unit.points:
-                early = self._early.get((block.key, unit.behavior.id, point.id))
-                if early is not None and not point.cut:
-                    self.note("prediction", now, early)
             if all(point.fired and not point.cut for point in unit.points):
                 for text in _wrong_durations(unit):
                     self.note("equation", now, f"{block.key.block}: {text}")
-        self._early = {key: text for key, text in self._early.items() if key[0] != block.key}
 
     def note(self, law: str, time: float, text: str) -> None:
         """Note a breach."""
@@ -140,7 +140,14 @@ class SessionLaws:
                 self._check_prediction(now, progress, name)
         if progress.sync == "end":
             self._playing.pop(key, None)
+            self._check_early(now, key)
             self.ended += 1
+
+    def _check_early(self, now: GlobalTime, key: BlockKey) -> None:
+        """Only what was cut may have come early."""
+        early, whole = self._early.pop(key, {}), self._whole[key]
+        for point in sorted(early.keys() & (whole.pop(0) if whole else set[tuple[str, str]]())):
+            self.note("prediction", now, early[point])
 
     def _check_point(self, now: GlobalTime, progress: SyncPointProgress) -> None:
         key = BlockKey(progress.character, progress.block)
@@ -171,7 +178,7 @@ class SessionLaws:
         if progress.sync not in OPEN or any(progress.time > time for time in times):
             self.note("prediction", now, text)
         elif isinstance(progress, SyncPointProgress):
-            self._early[BlockKey(progress.character, progress.block), progress.behavior, progress.sync] = text
+            self._early[BlockKey(progress.character, progress.block)][progress.behavior, progress.sync] = text
 
 
 def _predicted_time(prediction: PredictionFeedback, progress: BlockProgress | SyncPointProgress) -> float | None:

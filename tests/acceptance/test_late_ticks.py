@@ -255,3 +255,15 @@ async def skip(pilot: RealizerPilot, late: Iterable[int]) -> None:
     for number in (number for number in range(400) if number not in late):
         await pilot.realizer.step(Tick(number, tick_time(previous), frame=False))
         previous = number
+
+
+async def test_a_point_does_not_move_to_before_the_body_could_have_reached_it(any_strategy: RealizerPilot) -> None:
+    """The prediction arrives in a late tick, in which the arm has become ready."""
+    any_strategy.predict("t", "hit", 1.0)
+    any_strategy.block("b", '<gesture id="g" lexeme="BEAT" start="0" ready="anticipators:t:hit-0.7"/>')
+    await any_strategy.advance(0.02)
+    any_strategy.predict("t", "hit", 0.85)
+    any_strategy.skip(40)
+    await any_strategy.advance(4)
+    assert any_strategy.feedback.time("b:g:ready") == pytest.approx(0.2489, abs=1e-4)
+    assert any_strategy.feedback.warnings == []

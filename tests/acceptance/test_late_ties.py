@@ -249,3 +249,17 @@ async def test_what_comes_after_a_time_to_which_a_tie_is_late_starts_with_the_bl
         assert pilot.feedback.time("b:n:start") == pilot.feedback.time("b:g:start") == 2.0
         (warning,) = pilot.feedback.of("warningFeedback")
         assert f"g:stroke = {STOP} is 1.73 s late" in warning.text
+
+
+@pytest.mark.parametrize("strategy", ["convex", "embr"])
+async def test_a_time_that_becomes_known_after_the_start_counts_as_it_is(strategy: str) -> None:
+    """For the tie to the time ahead of it, it comes too early; what comes after it begins as early as it may."""
+    behaviors = wait("w", 3) + wait("v", 0.1, start=f"{STOP}-1") + nod("n") + after(STOP, "n:start+0.2")
+    async with open_pilot(SceneOptions(voice="text", strategy=strategy, verify=True)) as pilot:
+        pilot.block("a", wait("w", 0.5))
+        pilot.block("b", behaviors + wait("u", 0.1, start=HIT), composition="APPEND")
+        await moves(pilot, 0.6, ("hit", 2.0), 0.2)
+        pilot.predict("user", "stop", 0.85)
+        await pilot.advance(4)
+        assert_time(pilot.feedback, "b:n:start", 0.8)
+        assert texts(pilot) == [f"line 1, column 201: v:start = {STOP}-1 no longer holds: it is off by 0.95 s"]

@@ -100,17 +100,31 @@ def ended(
     return cast("BMLBlock", SimpleNamespace(key=key, units=[unit], end=unit.points[-1].peg))
 
 
-def broken_at_end(block: BMLBlock, *told: tuple[float, Feedback]) -> list[str]:
+def broken_by(*steps: tuple[float, Feedback] | BMLBlock) -> list[str]:
+    """The laws that feedback, and blocks that end in between, break."""
     laws = SessionLaws()
-    for now, message in told:
-        laws(Report(GlobalTime(now), message))
-    laws.check_units(block)
+    for step in steps:
+        if isinstance(step, tuple):
+            laws(Report(GlobalTime(step[0]), step[1]))
+        else:
+            laws.check_units(step)
     return [breach.law for breach in laws.breaches]
+
+
+END = (0.5, point("end", 0.5)), (0.5, of_block("end", 0.5))
 
 
 @pytest.mark.parametrize(("cut", "laws"), [(True, []), (False, ["prediction"])])
 def test_only_a_behavior_that_is_cut_may_end_earlier_than_predicted(cut: bool, laws: list[str]) -> None:
-    assert broken_at_end(ended(behavior=WAIT, start=0.0, end=0.5, cut=cut), *BEGUN, (0.5, point("end", 0.5))) == laws
+    block = ended(behavior=WAIT, start=0.0, end=0.5, cut=cut)
+    assert broken_by(*BEGUN, block, *END) == broken_by(*BEGUN, END[0], block, END[1]) == laws
+
+
+def test_an_early_end_does_not_count_for_the_next_block_with_the_same_id() -> None:
+    first, second = ended(behavior=WAIT, start=0.0, end=0.5, cut=True), ended(behavior=WAIT, start=0.5, end=1.5)
+    next_one = PredictionFeedback("c", "b", GlobalTime(0.5), GlobalTime(1.5), "LURKING", ())
+    revoked = (0.9, of_block("end", 0.9, "REVOKED"))
+    assert broken_by(*BEGUN, first, *END, (0.5, next_one), second, revoked) == []
 
 
 @pytest.mark.parametrize(
@@ -126,4 +140,4 @@ def test_only_a_behavior_that_is_cut_may_end_earlier_than_predicted(cut: bool, l
     ],
 )
 def test_the_durations_of_a_behavior_are_checked_when_its_block_has_ended(block: BMLBlock, laws: list[str]) -> None:
-    assert broken_at_end(block) == laws
+    assert broken_by(block) == laws
