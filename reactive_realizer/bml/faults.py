@@ -456,6 +456,13 @@ class NoCounterpart(Fault):
     attributes: tuple[str, ...]
 
 
+class NoOrientation(ParsingFault):
+    """A movement of the head of SmartBody that is to turn it to a target, and has none."""
+
+    code = "no-orientation"
+    template = "<head type='ORIENT'> requires a target to which the head turns; SmartBody leaves it out too"
+
+
 class LeftToPlugins(Fault):
     """A constraint of SmartBody that only an engine of a plug-in could play."""
 

@@ -8,6 +8,7 @@ from typing import Final
 
 from reactive_realizer.bml.behaviors import MOST_REPETITIONS
 from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.faults import NoOrientation
 from reactive_realizer.bml.names import BMLA, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     WITHOUT_EFFECT,
@@ -33,7 +34,7 @@ from reactive_realizer.bml.smartbody.reaching import (
 )
 from reactive_realizer.bml.smartbody.saccades import adapt_saccade
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
-from reactive_realizer.errors import Fault
+from reactive_realizer.errors import Fault, RealizerError
 
 _ORIENT: Final = "ORIENT"
 """The type of a movement of the head that turns it to a target."""
@@ -69,7 +70,7 @@ def adapt(tree: Tree, source: BlockSource) -> list[Fault]:
         source: its block.
 
     Raises:
-        RealizerError: ``bad-attribute``.
+        RealizerError: ``bad-attribute``, ``no-orientation``.
     """
     rewrite = _REWRITES.get(name_of(tree))
     other = rewrite is None or (name_of(tree) == _CONSTRAINT and not is_of_hand(tree))
@@ -89,10 +90,16 @@ def _interrupt(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def _head(tree: Tree, source: BlockSource) -> list[Fault]:
-    """Rewrites a movement of the head; its axis and its duration make no difference in SmartBody either."""
-    if tree.get("type", "").upper() == _ORIENT and "target" in tree.attrib:
+    """Rewrites a movement of the head; its axis and its duration make no difference in SmartBody either.
+
+    Raises:
+        RealizerError: ``no-orientation``, ``bad-attribute``.
+    """
+    if tree.get("type", "").upper() == _ORIENT:
+        if "target" not in tree.attrib:
+            raise RealizerError(source.located(tree, NoOrientation()))
         tree.tag = "headDirectionShift"
-        drop(tree, "type", "amount", "duration")
+        drop(tree, "type", "amount", "duration", "direction", "angle")
         return left_out(tree, source)
     repeats = take_number(tree, "repeats", source, 0.0, MOST_REPETITIONS)
     velocity = take_number(tree, "velocity", source, 0.01, _MOST_VELOCITY)

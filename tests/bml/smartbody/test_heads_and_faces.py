@@ -6,7 +6,7 @@ from reactive_realizer.bml.behaviors import Face, FaceFacs, Head, HeadDirectionS
 from reactive_realizer.bml.extensions import FaceFap
 from reactive_realizer.bml.vocabulary import Side
 
-from .reading import behaviors, only, told
+from .reading import behaviors, only, read, told
 
 
 def test_a_nod_lasts_as_its_velocity_and_its_repeats_say() -> None:
@@ -20,6 +20,17 @@ def test_a_head_that_is_oriented_turns_to_its_target() -> None:
     shift = only('<head id="h" type="ORIENT" target="bob" start="1" amount="1"/>')
     assert isinstance(shift, HeadDirectionShift)
     assert (shift.target, str(shift.syncs["start"])) == ("bob", "1")
+
+
+@pytest.mark.parametrize("given", ["", 'direction="LEFT" angle="20"'])
+def test_a_head_without_a_target_to_turn_to_is_left_out_and_says_so(given: str) -> None:
+    parsed = read(f'<act><bml><head id="h" type="ORIENT" {given}/><head id="n" type="NOD"/></bml></act>')
+    assert parsed.block is not None
+    assert [each.id for each in parsed.block.behaviors] == ["n"]
+    (problem,) = parsed.problems
+    assert problem.fault.sentence == (
+        "<head type='ORIENT'> requires a target to which the head turns; SmartBody leaves it out too"
+    )
 
 
 def test_a_tied_end_has_precedence_over_a_velocity() -> None:
