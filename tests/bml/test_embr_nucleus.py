@@ -108,6 +108,20 @@ def test_fluidity_takes_from_holds_or_has_the_hand_rest_at_each_pose() -> None:
     assert halting.poses[2].hold == pytest.approx(0.3)
 
 
+def test_fluidity_of_one_pose_takes_from_its_hold_and_the_way_to_the_next_pose_takes_longer() -> None:
+    poses = (pose(500, PLACES[0], 0, None), pose(1000, PLACES[1], 400), pose(2000, PLACES[0], 0, None))
+    plain, fluid, halting = (arms(nucleus(FLUIDITY=value) + sequence(*poses))[0] for value in (0, 0.5, -1))
+    assert times(plain) == times(fluid) == times(halting)
+    assert [arm.poses[1].hold for arm in (plain, fluid, halting)] == pytest.approx([0.4, 0.25, 0.7])
+
+
+def test_one_pose_without_a_hold_has_no_pause_that_fluidity_could_shorten() -> None:
+    poses = (pose(1000, PLACES[1]), pose(2000, PLACES[0], 0, None))
+    plain, fluid, halting = (arms(nucleus(FLUIDITY=value) + sequence(*poses))[0] for value in (0, 1, -1))
+    assert fluid.poses == plain.poses
+    assert halting.poses[0].hold == pytest.approx(0.3)
+
+
 def curves(*poses: str, more: str = "") -> list[dict[str, float]]:
     (arm,) = arms(more + sequence(*poses))
     return [each.curve for each in arm.poses]

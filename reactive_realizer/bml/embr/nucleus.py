@@ -84,23 +84,24 @@ class Nuclei:
     def expressed(self, sequence: Iterable[Timed]) -> Iterator[Timed]:
         """The poses of a sequence in order, with expressivity; others come later if they have to.
 
-        Movements to poses of a nucleus, and their holds, have other durations. With power, a pose in the opposite
-        direction, with a hold, comes before the first movement of a nucleus whose beginning the script states.
+        Movements to poses of a nucleus, and their holds, have other durations. The movement after a hold that fluidity
+        shortens begins at its end. With power, a pose in the opposite direction, with a hold, comes before the first
+        movement of a nucleus whose beginning the script states.
         """
-        last, places = 0.0, dict[str, Place]()
+        last, saved, places = 0.0, 0.0, dict[str, Place]()
         previous: Timed | None = None
         swung: set[str] = set()
         for each in sequence:
             expressivity = self._of(each.node)
             after_nucleus = previous is not None and previous.node.values.keys() >= {"NUCLEUS"}
             if expressivity == NEUTRAL:
-                begins = max(each.begins, last)
+                begins = max(each.begins - saved, last)
                 reached = each.reached if each.reached > begins + _ROUNDING else begins + SHORTEST
                 new = Timed(each.node, begins, reached, reached + each.left - each.reached)
             else:
                 id_ = each.node.values["NUCLEUS"].text
                 node = self._scaled(each.node, id_, expressivity)
-                begins = last if after_nucleus else max(each.begins, last)
+                begins = last if after_nucleus else max(each.begins - saved, last)
                 ways = {group: (places[group], goal) for group, goal in _places(node).items() if group in places}
                 if expressivity.power > 0.0 and ways and id_ not in swung and previous is not None:
                     swung.add(id_)
@@ -112,6 +113,7 @@ class Nuclei:
                 hold = expressivity.pause(each.left - each.reached)
                 new = Timed(node, begins, reached, reached + hold, expressivity.power)
             yield _rounded(new)
+            saved = max(0.0, each.left - each.reached - (new.left - new.reached))
             last, previous = new.left, new
             places |= _places(new.node)
 
