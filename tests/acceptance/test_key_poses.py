@@ -503,3 +503,44 @@ async def test_a_hand_that_cannot_reach_its_place_goes_as_near_as_it_can_and_say
         assert "r_wrist cannot reach its goal" in warning.text
         arm = [at(pilot, 1.2).transform(joint).position for joint in ("r_shoulder", "r_wrist")]
         assert distance(*arm) > 0.4
+
+
+@pytest.mark.parametrize(
+    ("group", "goals", "joint", "direction", "axis"),
+    [
+        ("RIGHT_ARM", place(HERE) + '<rr:orientation axis="FINGERS" direction="0 0 -1"/>', "r_wrist", (0, 0, -1), None),
+        ("HEAD", '<rr:orientation axis="FACE" direction="0 0 -1"/>', "skullbase", (0, 0, -1), (0, 0, 1)),
+        ("HEAD", '<rr:orientation axis="CROWN" direction="1 0 0"/>', "skullbase", (1, 0, 0), (0, 1, 0)),
+        ("HEAD_NECK", '<rr:lookAt target="0 0.6 -2"/>', "skullbase", (0, 0, -1), (0, 0, 1)),
+        ("TRUNK", '<rr:orientation axis="CHEST" direction="0 0 -1"/>', "vt6", (0, 0, -1), (0, 0, 1)),
+        ("SHOULDERS", '<rr:orientation axis="SHOULDER" direction="0 1 0"/>', "l_sternoclavicular", (0, 1, 0), None),
+    ],
+)
+async def test_a_joint_that_cannot_turn_to_its_direction_says_once_how_much_is_missing(
+    group: str, goals: str, joint: str, direction: Vec3, axis: Vec3 | None
+) -> None:
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(document(poses("k", group, pose(1, goals, 0.4))))
+        await pilot.advance(0.9)
+        assert pilot.feedback.warnings == []
+        await pilot.advance(1)
+        (warning,) = pilot.feedback.of("warningFeedback")
+        assert warning.id == "b:k"
+        assert f"{joint} cannot turn to its direction in k at phase" in warning.text
+        if axis is not None:
+            told = float(warning.text.rpartition("it is ")[2].split()[0])
+            shown = rotate(at(pilot, 1.2).transform(joint).rotation, axis)
+            assert math.degrees(math.acos(dot(shown, direction))) == pytest.approx(told, abs=6.0)
+
+
+async def test_directions_that_joints_have_are_not_told() -> None:
+    hand = place(HERE) + '<rr:orientation axis="PALM" direction="0 -1 0"/>'
+    face = '<rr:orientation axis="FACE" direction="0.4 0 1"/>'
+    async with open_pilot() as pilot:
+        pilot.watch()
+        pilot.perform(
+            document(poses("k", "RIGHT_ARM", pose(1, hand, 0.4)) + poses("f", "HEAD_NECK", pose(1, face, 0.4)))
+        )
+        await pilot.advance(2)
+        assert pilot.feedback.warnings == []

@@ -314,6 +314,19 @@ class NotReachable(PlayingFault):
     distance: float
 
 
+class NotTurned(PlayingFault):
+    """A joint that cannot turn to a direction; ``angle`` in degrees."""
+
+    code = "not-turned"
+    template = (
+        "{joint} cannot turn to its direction in {animation} at phase {phase:.2f}: it is {angle:.0f} degrees short"
+    )
+    joint: str
+    animation: str
+    phase: float
+    angle: float
+
+
 class NoMotion(PlayingFault):
     """A formula without a value."""
 

@@ -18,7 +18,7 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import FORWARD, ZERO, Vec3, add, cross, dot, length, rejected, subtract, unit
-from reactive_realizer.engines.animation.key_poses.direction import Direction, turn_about
+from reactive_realizer.engines.animation.key_poses.direction import Direction, Unturned, turn_about
 from reactive_realizer.engines.animation.procedural.effector_track import natural_arm
 from reactive_realizer.engines.animation.procedural.tracks import parent_rotation
 from reactive_realizer.engines.animation.spine_ik import HandGoal
@@ -102,6 +102,12 @@ class ArmGoals:
         for _ in range(_ROUNDS if length(self.tip) > 0.0 else 0):
             solved, hand = self._reaching(subtract(target, rotate(hand, self.tip)), body, wrist)
         return solved._replace(rotations=dict(natural_arm(self.side, solved.rotations, body.skeleton)))
+
+    def unturned(self, body: Body) -> tuple[Unturned, ...]:
+        """Return by how much the hand falls short of its first direction in a body that has the pose."""
+        wrist = f"{self.side}_wrist"
+        rotation = body.transform(wrist).rotation
+        return tuple(Unturned(wrist, each.left(rotation)) for each in self.directions[:1])
 
     def hand_goal(self, body: Body, wrist: Quat) -> HandGoal | None:
         """Return where the hand is to be; None if it only turns.

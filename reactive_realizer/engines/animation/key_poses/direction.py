@@ -3,7 +3,7 @@
 import math
 from typing import Final, NamedTuple
 
-from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, rotate
+from reactive_realizer.embodiment.quaternion import Quat, angle, between, from_axis_angle, rotate
 from reactive_realizer.embodiment.vector import Vec3, cross, dot, rejected
 
 FAR: Final = 100.0
@@ -20,6 +20,26 @@ class Direction(NamedTuple):
 
     axis: Vec3
     way: Vec3
+
+    def left(self, rotation: Quat) -> float:
+        """Return by how much a joint has to turn further to have it, rad.
+
+        Args:
+            rotation: of the joint, from its axes to the figure's.
+        """
+        return angle(between(rotate(rotation, self.axis), self.way))
+
+
+class Unturned(NamedTuple):
+    """A joint that does not have its direction.
+
+    Attributes:
+        joint: H-Anim name.
+        angle: from its direction, rad.
+    """
+
+    joint: str
+    angle: float
 
 
 def turn_about(axis: Vec3, rotation: Quat, direction: Direction) -> Quat:

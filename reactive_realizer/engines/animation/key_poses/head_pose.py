@@ -1,7 +1,7 @@
 """The pose of neck, head and trunk that meets goals: where the face points, and how the head tilts."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
@@ -13,11 +13,12 @@ from reactive_realizer.embodiment.vector import UP, Vec3, add, scale
 from reactive_realizer.engines.animation.gaze.head_turn import (
     EYE_WEIGHT,
     JOINT_GROUPS,
+    HeadTurn,
     default_weights,
     head_turn_toward,
     joint_weights,
 )
-from reactive_realizer.engines.animation.key_poses.direction import FAR, Direction
+from reactive_realizer.engines.animation.key_poses.direction import FAR, Direction, Unturned
 
 _HEAD = "skullbase"
 
@@ -67,20 +68,34 @@ class HeadPose:
             rest: rotations of these joints without goals.
         """
         here = {joint: rest[joint] for joint in self.joints if joint in rest}
-        faced = [each.way for each in self.directions if each.axis == HEAD_AXES[BodyAxis.FACE]]
-        if self.place is not None:
-            point = add(body.transform(body.skeleton.joints[0]).position, self.place)
-            here |= self._turned(body, rest, lambda eyes: point)
-        elif faced:
-            here |= self._turned(body, rest, lambda eyes: add(eyes, scale(faced[0], FAR)))
+        turned = self._turned(body, rest)
+        if turned is not None:
+            here |= turned.rotations
         for each in self.directions:
             if each.axis != HEAD_AXES[BodyAxis.FACE]:
                 here[_HEAD] = _tilted(body.posed(here), each)
         return here
 
-    def _turned(self, body: Body, rest: Mapping[str, Quat], point: Callable[[Vec3], Vec3]) -> Mapping[str, Quat]:
-        weights = {**WEIGHTS[self.group], EYE_WEIGHT: 0.0}
-        return head_turn_toward(body, rest, point, weights).rotations
+    def unturned(self, body: Body, rest: Mapping[str, Quat]) -> Iterator[Unturned]:
+        """Yield by how much the face falls short of what it looks at, or else the head of its first direction."""
+        turned = self._turned(body, rest)
+        if turned is not None and turned.missing is not None:
+            yield Unturned(_HEAD, turned.missing)
+        elif turned is None and self.directions:
+            yield Unturned(_HEAD, self.directions[0].left(body.transform(_HEAD).rotation))
+
+    def _turned(self, body: Body, rest: Mapping[str, Quat]) -> HeadTurn | None:
+        """Return the turn of the face to where it looks; None if it looks nowhere."""
+        faced = [each.way for each in self.directions if each.axis == HEAD_AXES[BodyAxis.FACE]]
+        if self.place is None and not faced:
+            return None
+
+        def point(eyes: Vec3) -> Vec3:
+            if self.place is None:
+                return add(eyes, scale(faced[0], FAR))
+            return add(body.transform(body.skeleton.joints[0]).position, self.place)
+
+        return head_turn_toward(body, rest, point, {**WEIGHTS[self.group], EYE_WEIGHT: 0.0})
 
 
 def _tilted(body: Body, direction: Direction) -> Quat:

@@ -1,6 +1,6 @@
 """The state of a group of joints that meets all goals of a key pose."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
@@ -8,6 +8,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals
+from reactive_realizer.engines.animation.key_poses.direction import Unturned
 from reactive_realizer.engines.animation.key_poses.head_pose import HeadPose
 from reactive_realizer.engines.animation.key_poses.trunk_pose import ShoulderPose, TrunkPose
 from reactive_realizer.engines.animation.spine_ik import HandGoal
@@ -56,6 +57,15 @@ class JointPose(Protocol):
         """
         ...
 
+    def unturned(self, body: Body, rest: Mapping[str, Quat]) -> Iterable[Unturned]:
+        """Return by how much joints fall short of the directions that they are to have.
+
+        Args:
+            body: that has the pose.
+            rest: rotations of its joints without goals.
+        """
+        ...
+
     def hands(self, body: Body, rest: Mapping[str, Quat]) -> tuple[HandGoal, ...]:
         """Return where hands are to be, so that the trunk may lean for them.
 
@@ -86,6 +96,10 @@ class SeveralPoses:
         solved = [pose.solve(body, rest) for pose in self.poses]
         rotations = {joint: turn for each in solved for joint, turn in each.rotations.items()}
         return SolvedRotations(rotations, next((each.missed for each in solved if each.missed is not None), None))
+
+    def unturned(self, body: Body, rest: Mapping[str, Quat]) -> tuple[Unturned, ...]:
+        """Return by how much joints fall short of their directions."""
+        return tuple(each for pose in self.poses for each in pose.unturned(body, rest))
 
     def hands(self, body: Body, rest: Mapping[str, Quat]) -> tuple[HandGoal, ...]:
         """Return where hands are to be."""
@@ -135,6 +149,11 @@ class SolvedPose:
                 reach = Arm.of(body.skeleton, self.arm.side).reach
                 missed = Missed(end, solved.missing, solved.missing / reach)
         return SolvedRotations(rotations, missed)
+
+    def unturned(self, body: Body, rest: Mapping[str, Quat]) -> tuple[Unturned, ...]:
+        """Return by how much joints fall short of their directions."""
+        carrying = () if self.carrying is None else tuple(self.carrying.unturned(body, rest))
+        return carrying if self.arm is None else (*carrying, *self.arm.unturned(body))
 
     def hands(self, body: Body, rest: Mapping[str, Quat]) -> tuple[HandGoal, ...]:
         """Return where its hand is to be; nothing if that only turns."""

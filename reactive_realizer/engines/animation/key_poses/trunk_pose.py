@@ -1,7 +1,7 @@
 """The pose of a trunk and of shoulders that have directions."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
@@ -10,7 +10,7 @@ from reactive_realizer.bml.vocabulary import BodyAxis
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import Quat, angle, between, conjugate, multiply, power, rotate
 from reactive_realizer.embodiment.vector import FORWARD, UP, Vec3, unit
-from reactive_realizer.engines.animation.key_poses.direction import Direction, turn_about
+from reactive_realizer.engines.animation.key_poses.direction import Direction, Unturned, turn_about
 from reactive_realizer.engines.animation.spine_ik import turned_spine
 
 TRUNK_AXES: Final[Mapping[BodyAxis, Vec3]] = MappingProxyType(
@@ -56,6 +56,11 @@ class TrunkPose:
             posed = turned_spine(posed, own, joint, multiply(turn, posed.transform(joint).rotation))
         return {joint: posed.rotation(joint) for joint in self.joints}
 
+    def unturned(self, body: Body, rest: Mapping[str, Quat]) -> Iterator[Unturned]:
+        """Yield by how much joints fall short of their first directions in a body that has the pose."""
+        for joint, (first, *_) in self.directions.items():
+            yield Unturned(joint, first.left(body.transform(joint).rotation))
+
 
 def _split(joints: Sequence[str], last: str) -> tuple[Sequence[str], Sequence[str]]:
     """Split joints behind one of them."""
@@ -100,6 +105,13 @@ class ShoulderPose:
             rest: rotations of these joints without goals.
         """
         return {f"{side}_sternoclavicular": self._turned(side, way, body, rest) for side, way in self.ways.items()}
+
+    def unturned(self, body: Body, rest: Mapping[str, Quat]) -> Iterator[Unturned]:
+        """Yield by how much collarbones fall short of their directions in a body that has the pose."""
+        for side, way in self.ways.items():
+            joint = f"{side}_sternoclavicular"
+            direction = Direction(shoulder_axis(side, body.skeleton), way)
+            yield Unturned(joint, direction.left(body.transform(joint).rotation))
 
     def _turned(self, side: str, way: Vec3, body: Body, rest: Mapping[str, Quat]) -> Quat:
         joint = f"{side}_sternoclavicular"

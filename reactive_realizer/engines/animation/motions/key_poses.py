@@ -1,5 +1,6 @@
 """Key poses as motions: a part of the body goes from one state to the next."""
 
+import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
@@ -15,7 +16,7 @@ from reactive_realizer.embodiment.two_bone_ik import Arm
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.engines.animation.arm_shift import CarriedArm, Way, on_way
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
-from reactive_realizer.engines.animation.faults import NotReachable
+from reactive_realizer.engines.animation.faults import NotReachable, NotTurned
 from reactive_realizer.engines.animation.key_poses.elbow import kept_flexed
 from reactive_realizer.engines.animation.key_poses.solved_pose import JointPose, SolvedRotations
 from reactive_realizer.engines.animation.motion_unit import (
@@ -36,6 +37,12 @@ _LOWER = frozenset({*HEAD, *TRUNK})
 
 _STRETCHED = 0.5
 """Distance from its place at which a hand is reported, as a share of the arm: poses are written for other figures."""
+
+_TURNED = math.radians(20.0)
+"""Angle from its direction at which a joint is reported, rad: poses are written for other figures."""
+
+_ARRIVED = 0.05
+"""Time after a key pose in which a motion that passes it is still there, s."""
 
 _WORK = 16
 """Work of making it, beside that for each key pose, as the limit `planning_per_tick` counts."""
@@ -219,6 +226,9 @@ class KeyPosesMotionUnit(MotionUnit):
         solved = pose.solve(body, rest)
         if solved.missed is not None and solved.missed.share > _STRETCHED and moment.shown is not None:
             self.fault = self.fault or self._unreachable(key, pose, moment.body)
+        there = key.reached <= moment.phase * self.preferred_duration <= max(key.left, key.reached + _ARRIVED)
+        if there and self.fault is None and moment.shown is not None:
+            self.fault = self._unturned(key, body.posed(solved.rotations))
         return solved._replace(rotations={**rest, **solved.rotations})
 
     def _rest_rotations(self) -> dict[str, Quat]:
@@ -241,6 +251,15 @@ class KeyPosesMotionUnit(MotionUnit):
                 fault = NotReachable(joint=f"{hand.side}_wrist", animation=self._name, phase=phase, distance=missing)
                 return fault.located(key.location.line, key.location.column)
         return None
+
+    def _unturned(self, key: Key, body: Body) -> Fault | None:
+        """Return the fault of the joint that is furthest from its direction in a posed body; None if it is near."""
+        short = max(key.pose.unturned(body, self._rest_rotations()), key=lambda each: each.angle, default=None)
+        if short is None or short.angle <= _TURNED:
+            return None
+        phase = key.reached / self.preferred_duration
+        fault = NotTurned(joint=short.joint, animation=self._name, phase=phase, angle=math.degrees(short.angle))
+        return fault.located(key.location.line, key.location.column)
 
     def _weight(self, time: float) -> float:
         come = minimum_jerk(share(time, 0.0, self._fade_in))
