@@ -10,7 +10,17 @@ from reactive_realizer.engine.faults import TwoPlugins
 from reactive_realizer.errors import RealizerError
 
 GROUP = "reactive_realizer"
-_GROUPS = ("engines", "tts", "anticipators", "strategies", "trajectories", "functions", "motions", "dialects")
+_GROUPS = (
+    "engines",
+    "tts",
+    "anticipators",
+    "strategies",
+    "trajectories",
+    "functions",
+    "motions",
+    "dialects",
+    "bridges",
+)
 
 
 def load(group: str, name: str) -> Any:

@@ -1,1 +1,1 @@
-"""Programs between a realizer and clients of other systems; each is a client of the realizer's protocol."""
+"""Clients of the protocol of a realizer that connect it with other systems, as plug-ins do."""

@@ -4,6 +4,7 @@ A client of EMBR opens a connection for each script, writes the script and close
 5555. Feedback goes to port 5556, one message of BML in each datagram.
 """
 
+import argparse
 import asyncio
 import logging
 import re
@@ -14,6 +15,8 @@ from typing import Any, Final
 
 from lxml import etree
 
+from reactive_realizer.bridges.bridge import Bridge
+from reactive_realizer.client.broker_options import add_address
 from reactive_realizer.client.realizer_socket import RealizerSocket
 from reactive_realizer.errors import RealizerError, WarningType
 from reactive_realizer.feedback.messages import WarningFeedback
@@ -150,3 +153,17 @@ async def _all_of(reader: asyncio.StreamReader, most: int) -> bytes:
         if len(received) > most:
             raise ValueError(f"the script has more than {most} bytes")
     return bytes(received)
+
+
+def _add_options(parser: argparse.ArgumentParser) -> None:
+    add_address(parser, "--listen", LISTEN, "where scripts are taken, over TCP")
+    add_address(parser, "--feedback", FEEDBACK, "where feedback is sent, over UDP")
+
+
+async def _run(url: str, options: argparse.Namespace) -> None:
+    await run_bridge(url, options.listen, options.feedback)
+
+
+BRIDGE = Bridge(
+    "Takes EMBRScript in the place of EMBR, plays it on a realizer, and reports its feedback.", _run, _add_options
+)

@@ -1,11 +1,15 @@
 """Connects a realizer with the Virtual Human Toolkit, over an ActiveMQ broker."""
 
+import argparse
 import asyncio
+import math
 from collections.abc import Mapping
 from functools import partial
 
+from reactive_realizer.bridges.bridge import Bridge
 from reactive_realizer.bridges.vhmsg_bridge import VhmsgBridge, ends
 from reactive_realizer.bridges.vhmsg_feedback import FeedbackForm
+from reactive_realizer.client.broker_options import USER_OF_BROKER, add_broker, broker_of
 from reactive_realizer.client.realizer_socket import RealizerSocket
 from reactive_realizer.client.stomp_bus import Broker, StompBus, connected
 from reactive_realizer.client.vh_message import VhMessage
@@ -59,3 +63,62 @@ async def _take(bus: StompBus, bridge: VhmsgBridge, realizer: RealizerSocket) ->
 
 def _send(bus: StompBus, scope: str, message: VhMessage) -> None:
     bus.send(message.text, **message.headers(scope))
+
+
+def agent(text: str) -> tuple[str, str]:
+    """Parse ``NAME=CHARACTER``.
+
+    Raises:
+        ValueError: a part is missing.
+    """
+    name, _, character = text.partition("=")
+    if not name or not character:
+        raise ValueError(text)
+    return name, character
+
+
+def length(text: str) -> float:
+    """Parse a length above 0.
+
+    Raises:
+        ValueError: it is none.
+    """
+    value = float(text)
+    if not 0.0 < value < math.inf:
+        raise ValueError(text)
+    return value
+
+
+def _add_options(parser: argparse.ArgumentParser) -> None:
+    add_broker(parser)
+    parser.add_argument(
+        "--agent",
+        type=agent,
+        action="append",
+        default=[],
+        metavar="NAME=CHARACTER",
+        help="the character that plays requests to an agent, if it has another name; can be repeated",
+    )
+    parser.add_argument(
+        "--feedback",
+        type=FeedbackForm,
+        choices=tuple(FeedbackForm),
+        default=FeedbackForm.NONE,
+        help="also send feedback on behaviors, as that of BML 1.0 or as SmartBody's; none by default",
+    )
+    parser.add_argument(
+        "--unit", type=length, default=1.0, metavar="M", help="the unit in which pawns are placed, m: 0.01 for cm; 1"
+    )
+
+
+async def _run(url: str, options: argparse.Namespace) -> None:
+    agents = dict(options.agent)
+    await run_bridge(url, broker_of(options), options.scope, agents, options.feedback, options.unit)
+
+
+BRIDGE = Bridge(
+    "Plays requests of the Virtual Human Toolkit (vrSpeak) on a realizer, and reports their progress (vrAgentBML); "
+    f"{USER_OF_BROKER}.",
+    _run,
+    _add_options,
+)

@@ -6,8 +6,8 @@ import json
 from collections import Counter
 from collections.abc import AsyncIterator, Mapping
 
-from reactive_realizer.cli.broker_options import USER_OF_BROKER, add_broker, broker_of
 from reactive_realizer.cli.realize import seconds
+from reactive_realizer.client.broker_options import USER_OF_BROKER, add_broker, broker_of
 from reactive_realizer.conformance.broker_connection import BrokerConnection
 from reactive_realizer.conformance.case import PROFILES, Profile, read_suite
 from reactive_realizer.conformance.connection import Connection, ProgramConnection, SocketConnection

@@ -8,6 +8,8 @@ from functools import partial
 from math import inf
 from pathlib import Path
 
+from reactive_realizer.assembly.registry import names
+from reactive_realizer.cli.bridge import bridge
 from reactive_realizer.cli.output import complain_of_inputs
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.punctual_loop import run_punctually
@@ -32,6 +34,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_scene_options(parser)
     parser.add_argument(
         "--sound-device", nargs="?", const="", metavar="NAME", help="play sounds on this machine, without a page"
+    )
+    parser.add_argument(
+        "--bridge",
+        type=bridge,
+        action="append",
+        default=[],
+        metavar="'NAME OPTIONS'",
+        help=f"also start a bridge ({', '.join(names('bridges'))}), with its options; can be repeated",
     )
     parser.add_argument("--record", type=Path, metavar="FILE", help="record the session for realize --replay")
     parser.add_argument(
@@ -93,6 +103,7 @@ def _server_options(options: argparse.Namespace) -> ServerOptions:
         sound_device=options.sound_device,
         record=options.record,
         record_bytes=options.record_size * _MEGABYTE,
+        bridges=tuple(options.bridge),
     )
 
 

@@ -52,6 +52,7 @@ class RealizerSocket:
 
     def __init__(self, url: str, patience: float = 10.0) -> None:
         self._url = url
+        self._shown = url.partition("?")[0]  # without the token, which does not belong into a log
         self._patience = patience
 
     async def __aenter__(self) -> Self:
@@ -93,7 +94,7 @@ class RealizerSocket:
 
     def not_reached(self, reason: str) -> RealizerError:
         """The error of a connection that does not work."""
-        return RealizerError(NotReached(url=self._url, reason=reason))
+        return RealizerError(NotReached(url=self._shown, reason=reason))
 
     async def _connect(self, stack: AsyncExitStack) -> None:
         try:
@@ -102,11 +103,13 @@ class RealizerSocket:
                 connecting = session.ws_connect(_socket_url(self._url), max_msg_size=0)
                 self._socket = await stack.enter_async_context(connecting)
                 self.hello = await self.receive()
+        except aiohttp.ClientResponseError as problem:  # its text has the URL, with the token
+            raise self.not_reached(f"{problem.status}, {problem.message}") from problem
         except (OSError, ValueError, aiohttp.ClientError) as problem:
             raise self.not_reached(str(problem) or type(problem).__name__) from problem
         if (self.hello.get("type"), self.hello.get("protocol")) != ("hello", _PROTOCOL):
             text = json.dumps(self.hello)[:200]
-            raise RealizerError(OtherProtocol(url=self._url, protocol=_PROTOCOL, message=text))
+            raise RealizerError(OtherProtocol(url=self._shown, protocol=_PROTOCOL, message=text))
 
 
 def _socket_url(url: str) -> URL:

@@ -11,6 +11,7 @@ from pathlib import Path
 from socket import socket
 
 from aiohttp import web
+from yarl import URL
 
 from reactive_realizer.assembly.scene import SceneOptions, open_scene
 from reactive_realizer.clock.clock import SystemClock
@@ -21,6 +22,7 @@ from reactive_realizer.server.connections import Connections, listen
 from reactive_realizer.server.intake import Intake
 from reactive_realizer.server.keys import INTAKE
 from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
+from reactive_realizer.server.own_clients import OwnClient, accompanied
 from reactive_realizer.server.recorder import Recorder
 from reactive_realizer.server.recording_parts import RecordingParts
 from reactive_realizer.server.security import Security
@@ -30,6 +32,8 @@ logger = logging.getLogger(__name__)
 
 _PATIENCE = 2.0
 """Time for blocks to end, and for clients to disconnect, s."""
+_LOOPBACK = {"0.0.0.0": "127.0.0.1", "::": "::1"}
+"""The own address where a server listens on all addresses."""
 _FADE = 0.3
 """Time for interrupted motions and sounds to fade out, s."""
 
@@ -48,6 +52,7 @@ class ServerOptions:
         sound_device: name of the device of this machine that plays sounds, empty for the default one; None for none.
         record: the file that the session is recorded into; None for none.
         record_bytes: the size from which the recording goes on in another file.
+        bridges: clients that run beside the server.
     """
 
     host: str = "127.0.0.1"
@@ -59,6 +64,7 @@ class ServerOptions:
     sound_device: str | None = None
     record: Path | None = None
     record_bytes: float = inf
+    bridges: tuple[OwnClient, ...] = ()
 
 
 async def serve(options: ServerOptions) -> None:
@@ -90,8 +96,9 @@ async def serve(options: ServerOptions) -> None:
             async with serving(live, security, listening) as app:
                 if options.sound_device is not None:
                     stack.enter_context(sound_device(live, app[INTAKE], options.sound_device))
-                await _termination()
-                await drain(live, app[INTAKE])
+                async with accompanied(options.bridges, _own_address(listening, options.token)):
+                    await _termination()
+                    await drain(live, app[INTAKE])
         finally:
             ticking.cancel()
 
@@ -141,6 +148,13 @@ async def drain(live: LiveScene, intake: Intake) -> None:
 def _address(listening: socket) -> str:
     host, port, *_ = listening.getsockname()
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+
+
+def _own_address(listening: socket, token: str | None) -> str:
+    """The URL for clients on this machine."""
+    host, port, *_ = listening.getsockname()
+    url = URL.build(scheme="http", host=_LOOPBACK.get(host, host), port=port, path="/")
+    return str(url if token is None else url.with_query(token=token))
 
 
 async def _termination() -> None:

@@ -85,6 +85,12 @@ def test_a_size_of_recordings_without_a_recording_or_of_nothing_is_refused(
     assert "--record-size" in capsys.readouterr().err
 
 
+def test_no_bridge_is_started_unless_it_is_asked_for(served: list[ServerOptions]) -> None:
+    main(["serve"])
+    main(["serve", "--bridge", "embr", "--bridge", "vhmsg --agent brad=alice"])
+    assert [[bridge.name for bridge in each.bridges] for each in served] == [[], ["embr", "vhmsg"]]
+
+
 def test_the_demo_speaks_with_the_natural_voice_where_it_is_installed(
     served: list[ServerOptions], monkeypatch: pytest.MonkeyPatch
 ) -> None:

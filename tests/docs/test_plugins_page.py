@@ -1,17 +1,22 @@
 """docs/plugins.md: its plug-ins are found, play, and pass their contracts outside of this repository."""
 
+import asyncio
 import os
 import shutil
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 import pytest
+from aiohttp.test_utils import unused_port
 
 from reactive_realizer.__main__ import main
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.cli.bridge import bridge
+from reactive_realizer.client.realizer_socket import RealizerSocket
 from reactive_realizer.embodiment.audio import AudioGain
 from reactive_realizer.errors import FAULTS
 from reactive_realizer.testing.pilot import open_pilot
@@ -133,6 +138,33 @@ def test_check_knows_a_file_by_its_content(tmp_path: Path, capsys: pytest.Captur
     (tmp_path / "a.xml").write_text("#cues\n0 nod\n1 sing la\n")
     assert main(["check", str(tmp_path / "a.xml")]) == 1
     assert capsys.readouterr().out.startswith(f"{tmp_path}/a.xml:3:1: '1 sing la' is not a cue")
+
+
+@pytest.mark.usefixtures("installed")
+async def test_the_bridge_on_the_page_has_lines_said(server: str) -> None:
+    port = unused_port()
+    async with asyncio.timeout(60), asyncio.TaskGroup() as group, RealizerSocket(server) as observer:
+        bridging = group.create_task(bridge(f"lines --port {port}").run(server))
+        writer = await opened(port)
+        writer.write(b"Good & evil.\n")
+        while '"line1:said:start"' not in (await observer.receive()).get("xml", ""):
+            pass
+        writer.close()
+        bridging.cancel()
+
+
+@pytest.mark.usefixtures("installed")
+def test_the_command_bridge_has_the_bridge_on_the_page(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bridge", "lines", "http://127.0.0.1:9"]) == 2
+    assert "no realizer can be reached at http://127.0.0.1:9" in capsys.readouterr().err
+
+
+async def opened(port: int) -> asyncio.StreamWriter:
+    """A connection to a port, as soon as somebody listens there."""
+    while True:
+        with suppress(ConnectionRefusedError):
+            _, writer = await asyncio.open_connection("localhost", port)
+            return writer
 
 
 FEW = """
