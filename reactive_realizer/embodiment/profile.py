@@ -1,6 +1,7 @@
 """The surface around an axis: how far away it is, by the place along the axis and the angle about it."""
 
 import math
+from itertools import islice
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -110,23 +111,17 @@ class Profile(NamedTuple):
             ahead: how far the other axis is in front of that one, m (`Patch.outermost`).
         """
         rows = np.array([self.rows[0], *self.rows, self.rows[-1], self.rows[-1]])
-        around = np.roll(np.arange(ANGLES), 1)[:, np.newaxis] + np.arange(3)
-        return [
-            [
-                self._patch(_POWERS @ rows[row : row + 3, columns % ANGLES] @ _POWERS.T, size, column, ahead)
-                for column, columns in enumerate(around)
-            ]
-            for row in range(len(rows) - 2)
-        ]
-
-    def _patch(self, terms: NDArray[np.float64], size: float, column: int, ahead: float) -> Patch:
+        three = np.arange(len(rows) - 2)[:, np.newaxis] + np.arange(3)
+        around = (np.arange(-1, ANGLES - 1)[:, np.newaxis] + np.arange(3)) % ANGLES
+        terms = _POWERS @ rows[three[:, np.newaxis, :, np.newaxis], around[:, np.newaxis, :]] @ _POWERS.T
         radii = np.maximum(_VALUES @ terms @ _VALUES.T, _THINNEST)
-        along = _SLOPES @ terms @ _VALUES.T / (self.step * size)
-        around = _VALUES @ terms @ _SLOPES.T * PER_RADIAN / radii
-        angles = (column - 0.5 + _SAMPLES) / PER_RADIAN
-        outermost = np.hypot(radii * np.sin(angles), radii * np.cos(angles) - ahead).max()
-        steepest = np.sqrt(1.0 + along**2 + around**2).max()
-        return Patch(float(radii.max()), float(outermost), float(steepest), tuple(terms.ravel().tolist()))
+        slopes = _SLOPES @ terms @ _VALUES.T / (self.step * size), _VALUES @ terms @ _SLOPES.T * PER_RADIAN / radii
+        angles = (np.arange(ANGLES)[:, np.newaxis, np.newaxis] - 0.5 + _SAMPLES) / PER_RADIAN
+        others = np.hypot(radii * np.sin(angles), radii * np.cos(angles) - ahead)
+        steepness = np.sqrt(1.0 + slopes[0] ** 2 + slopes[1] ** 2)
+        largest = (each.max(axis=(2, 3)).tolist() for each in (radii, others, steepness))
+        numbers = map(tuple, terms.reshape(-1, 9).tolist())
+        return [list(map(Patch, *limits, islice(numbers, ANGLES))) for limits in zip(*largest, strict=True)]
 
 
 def _basis(
