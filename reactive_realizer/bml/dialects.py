@@ -37,7 +37,9 @@ class Dialect:
     read: Callable[[str | bytes, Limits, str], list[Parsed]]
 
 
-BML_DIALECT: Final = Dialect(("application/bml+xml",), lambda text: True, parse)
+_BML_TYPES: Final = ("application/bml+xml", "application/vnd.smartbody+xml", "application/vnd.greta+xml")
+
+BML_DIALECT: Final = Dialect(_BML_TYPES, lambda text: True, parse)
 """BML 1.0 and its drafts. Its reader also says what is wrong with documents that no other dialect recognizes."""
 
 

@@ -177,6 +177,23 @@ async def test_a_document_may_have_the_media_type_of_bml_and_need_no_ids(on_air:
             assert (status, body) == (202, {"blocks": [f"document{number}"], "warnings": []})
 
 
+@pytest.mark.parametrize(
+    ("media_type", "text"),
+    [
+        ("application/vnd.smartbody+xml", '<act><participant id="alice"/><bml><sbm:noise/><head type="NOD"/></bml></act>'),
+        ("application/vnd.greta+xml", '<fml-apml><bml><head lexeme="NOD"/></bml><fml/></fml-apml>'),
+    ],
+)
+async def test_what_smartbody_and_greta_write_has_media_types_of_its_own(
+    on_air: Open, media_type: str, text: str
+) -> None:
+    async with on_air() as air:
+        status, body = await post(air, "/bml", text, {"Content-Type": media_type})
+        assert (status, body["blocks"]) == (202, ["document1"])
+        async with air.client.get("/capabilities") as answer:
+            assert media_type in (await answer.json())["mediaTypes"]
+
+
 @pytest.mark.parametrize("media_type", ["text/plain", "application/json", "application/x-www-form-urlencoded"])
 async def test_bml_that_is_not_sent_as_xml_is_refused(on_air: Open, media_type: str) -> None:
     async with on_air() as air:
