@@ -58,6 +58,7 @@ class BlockSource:
         self.limits = limits
         self.ids = BlockIds(root.tree)
         self._copied = 0
+        self._written: dict[Tree, str] = {}
         self._locations = dict(root.locations)
 
     # --- elements
@@ -76,6 +77,11 @@ class BlockSource:
         tree.insert(0, child)
         self.place(child, tree)
         return child
+
+    def rename(self, tree: Tree, name: str, written: str) -> None:
+        """Gives an element the name that it has in BML 1.0; faults name it as it was written."""
+        tree.tag = name
+        self._written[tree] = written
 
     def xml(self, tree: Tree) -> str:
         """An element as a well-formed XML document.
@@ -198,9 +204,8 @@ class BlockSource:
         unknown = [name for name in names_in(tree) if name not in known]
         if not unknown:
             return []
-        return [
-            self.located(tree, UnknownAttribute(element=name_of(tree), attributes=tuple(unknown), known=tuple(known)))
-        ]
+        element = self._written.get(tree, name_of(tree))
+        return [self.located(tree, UnknownAttribute(element=element, attributes=tuple(unknown), known=tuple(known)))]
 
     def unknown_children(self, tree: Tree, names: Iterable[str]) -> list[Fault]:
         """One fault for all child elements that have other names than these."""

@@ -26,7 +26,8 @@ _OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax")
 """Sync points that speech files of SmartBody state, and that a speech does not have."""
 _NO_FILE: Final = "voice_defaultTTS"
 """The Virtual Human Toolkit names this recording where a voice is to speak the text."""
-_MARKS: Final = ("tm", UNCLOSED_MARK, "mark")
+_MARKS: Final = {"tm": "tm", UNCLOSED_MARK: "tm", "mark": "mark"}
+"""Elements of marks, with the names by which they were written."""
 _ACCENT, _BOUNDARY = "pitchaccent", "boundary"
 _STRENGTHS: Final = ("strong", "moderate", "reduced", "none")
 _LEVELS: Final = {"none": "none", "reduced": "reduced", "low": "reduced", "strong": "strong", "high": "strong"}
@@ -40,7 +41,7 @@ def modernize_speech(tree: Tree, source: BlockSource) -> list[Fault]:
         tree.attrib.pop(name, "")
     for holder in (tree, *children_of(tree, "text")):
         for mark in children_of(holder, *_MARKS):
-            mark.tag = "sync"
+            source.rename(mark, "sync", _MARKS[name_of(mark)])
             if "name" in mark.attrib and "id" not in mark.attrib:
                 mark.set("id", str(mark.attrib.pop("name")))
         _drop_repeated_marks(holder)
