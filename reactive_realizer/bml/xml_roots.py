@@ -50,6 +50,14 @@ _PLAIN_DOCTYPE: Final = re.compile(
     rb"""<!DOCTYPE\s+[^\s<>\[\]"']+(?:\s+(?:SYSTEM|PUBLIC\s*(?:"[^"]*"|'[^']*'))\s*(?:"[^"]*"|'[^']*'))?\s*(?:\[\s*\]\s*)?>"""
 )
 """A DOCTYPE that declares nothing itself; what it names is not opened, so it has no effect."""
+_WHOLE_DOCTYPE: Final = re.compile(
+    rb"""
+    <!DOCTYPE (?> [^"'\[>] | "[^"]*" | '[^']*' )*+
+    (?: \[ (?> [^"'\]<] | <(?!!--|\?) | <!--.*?--> | <\?.*?\?> | "[^"]*" | '[^']*' )*+ \] \s* )? >
+    """,
+    re.IGNORECASE | re.DOTALL | re.VERBOSE,
+)
+"""A DOCTYPE with its declarations; without backtracking, so that a search takes no more than its length."""
 _NOT_UTF8: Final = re.compile(rb"\xed[\xb2\xb3][\x80-\xbf]")
 """An invalid byte, as `decode` keeps it: a lone surrogate from U+DC80 to U+DCFF."""
 _DECLARATION_END: Final = re.compile(rb"\?>")
@@ -89,12 +97,16 @@ def read_roots(text: str, limits: Limits) -> Iterator[Root | Problem]:
     """Each top-level element of a document, or the reason to refuse it, in document order."""
     data = re.sub(r"\r\n?", "\n", text).encode("utf-8", "surrogatepass")
     start, location = 0, Location(1, 1)
+    refusal: Fault | None = None
     while start < len(data):
-        run = _ParserRun(data, start, location, limits)
+        run = _ParserRun(data, start, location, limits, refusal)
         end = run.read()
         yield from run.found
+        refusal = run.refusal
         location = location.after(data[start:end].decode("utf-8", "surrogatepass"))
         start = end
+    if refusal is not None:
+        yield Problem(refusal, BLOCK)
 
 
 def _encoding_of(data: bytes) -> str:
@@ -116,13 +128,14 @@ class _RootBuilder:
     Attributes:
         id: from its start tag, not validated; "bml" if it has none.
         open: local name and location of the elements that have not ended.
+        refused: the first reason to refuse it.
     """
 
-    def __init__(self, attributes: Mapping[str, str], limits: Limits) -> None:
+    def __init__(self, attributes: Mapping[str, str], limits: Limits, refused: Fault | None) -> None:
         self.id = quoted(attributes.get("id", "")) or BLOCK
         self.open: list[tuple[str, Location]] = []
         self._limits = limits
-        self._refused: Fault | None = None
+        self.refused = refused
         self._builder: Any = etree.TreeBuilder()  # its stubs lack the prefixes
         self._locations: dict[Tree, Location] = {}
 
@@ -133,7 +146,7 @@ class _RootBuilder:
             self._refuse(TooDeep(limit=self._limits.xml_depth), location)
         if len(attributes) + len(prefixes) > self._limits.xml_attributes:
             self._refuse(TooManyAttributes(limit=self._limits.xml_attributes), location)
-        if self._refused:
+        if self.refused:
             return
         try:
             tree = self._builder.start(name, attributes, prefixes)
@@ -144,30 +157,36 @@ class _RootBuilder:
 
     def text(self, text: str) -> None:
         """Takes text."""
-        if not self._refused:
+        if not self.refused:
             self._builder.data(text)
 
     def end(self, name: str) -> None:
         """Takes an end tag."""
         self.open.pop()
-        if not self._refused:
+        if not self.refused:
             self._builder.end(name)
 
     def close(self) -> Root | Problem:
         """The result, after the end tag of the element."""
-        if self._refused:
-            return Problem(self._refused, self.id)
+        if self.refused:
+            return Problem(self.refused, self.id)
         return Root(self._builder.close(), self._locations)
 
     def _refuse(self, fault: Fault, location: Location) -> None:
-        self._refused = self._refused or fault.located(location.line, location.column)
+        self.refused = self.refused or fault.located(location.line, location.column)
 
 
 class _ParserRun:
-    """One run of expat over a document, from a given index to the end or to the first error."""
+    """One run of expat over a document, from a given index to the end or to the first error.
 
-    def __init__(self, data: bytes, start: int, location: Location, limits: Limits) -> None:
+    Attributes:
+        found: the elements and the problems of this run.
+        refusal: why the next top-level element is refused.
+    """
+
+    def __init__(self, data: bytes, start: int, location: Location, limits: Limits, refusal: Fault | None) -> None:
         self.found: list[Root | Problem] = []
+        self.refusal = refusal
         self._data = data
         self._start = start
         self._location = location
@@ -204,7 +223,7 @@ class _ParserRun:
 
     def _on_start(self, name: str, attributes: dict[str, str]) -> None:
         if self._root is None:
-            self._root = _RootBuilder(attributes, self._limits)
+            self._root, self.refusal = _RootBuilder(attributes, self._limits, self.refusal), None
             self._stray = False
         named = {_clark(each): value for each, value in attributes.items()}
         self._root.start(_clark(name), named, self._prefixes, self._place())
@@ -237,6 +256,10 @@ class _ParserRun:
         if plain is not None:
             return plain.end()
         if _DOCTYPE.match(self._data, index - behind):
+            if self._root is None:
+                self.refusal = Doctype().located(place.line, place.column)
+                whole = _WHOLE_DOCTYPE.match(self._data, index - behind)
+                return whole.end() if whole else len(self._data)
             self._report(Doctype(), place)
         elif index >= len(self._data) and self._root is not None:
             element, place = self._root.open[-1]
@@ -261,8 +284,11 @@ class _ParserRun:
         return match.end() if match else len(self._data)
 
     def _report(self, fault: Fault, place: Location) -> None:
-        block = BLOCK if self._root is None else self._root.id
-        self.found.append(Problem(fault.located(place.line, place.column), block))
+        located = fault.located(place.line, place.column)
+        if self._root is None:
+            self.found.append(Problem(located, BLOCK))
+        else:
+            self.found.append(Problem(self._root.refused or located, self._root.id))
 
     def _place(self) -> Location:
         return self._at(self._parser.CurrentLineNumber, self._parser.CurrentColumnNumber)

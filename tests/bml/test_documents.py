@@ -76,6 +76,9 @@ DECLARING_DOCTYPES = [
     '<?xml version="1.0"?>\n<!DOCTYPE bml [<!ENTITY x SYSTEM "file:///etc/passwd">]><bml id="bad">&x;</bml>',
     "<!doctype bml><bml></bml>",
     '<bml id="bad"><!DOCTYPE bml></bml>',
+    '<!DOCTYPE bml [<!ENTITY a "</bml>"> <!-- it\'s ]> --> <?go "?> <!ELEMENT bml ANY>\n] ><bml id="bad"><a></bml>',
+    '<!DOCTYPE act SYSTEM "]>" [<!ELEMENT act ANY>]><act><bml id="one"/>\n<bml id="two"/></act>',
+    '<!DOCTYPE fml-apml [<!ELEMENT fml-apml ANY>]><fml-apml><bml id="bad"/><fml/></fml-apml>',
 ]
 
 
@@ -84,6 +87,25 @@ def test_a_doctype_that_declares_something_is_refused_together_with_its_block(su
         with subtests.test(text):
             assert [code for _, code in faults(text)] == ["doctype"]
             assert ids(f'{text}<bml id="next"/>') == [None, "next"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["<!DOCTYPE bml [<!ELEMENT bml ANY>]>\n", '<!DOCTYPE bml [<!ELEMENT bml ANY>\n<bml id="b"/>', "<!DOCTYPE bml ["],
+)
+def test_a_doctype_without_a_block_or_without_an_end_is_refused_alone(text: str) -> None:
+    assert faults(f'<bml id="one"/>{text}') == [("bml", "doctype")]
+    assert ids(f'<bml id="one"/>{text}') == ["one", None]
+
+
+def test_a_long_doctype_takes_no_more_than_its_length() -> None:
+    for part in (
+        "<!DOCTYPE bml [<!-- -->",
+        "<!DOCTYPE bml [' ",
+        '<!DOCTYPE bml "',
+        "<!DOCTYPE bml [<!ELEMENT a ANY>]>",
+    ):
+        assert faults(part * 20_000)[-1] == ("bml", "doctype")
 
 
 PLAIN_DOCTYPES = [

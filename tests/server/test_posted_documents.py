@@ -180,7 +180,10 @@ async def test_a_document_may_have_the_media_type_of_bml_and_need_no_ids(on_air:
 @pytest.mark.parametrize(
     ("media_type", "text"),
     [
-        ("application/vnd.smartbody+xml", '<act><participant id="alice"/><bml><sbm:noise/><head type="NOD"/></bml></act>'),
+        (
+            "application/vnd.smartbody+xml",
+            '<act><participant id="alice"/><bml><sbm:noise/><head type="NOD"/></bml></act>',
+        ),
         ("application/vnd.greta+xml", '<fml-apml><bml><head lexeme="NOD"/></bml><fml/></fml-apml>'),
     ],
 )
