@@ -7,6 +7,7 @@ from typing import NamedTuple, Protocol
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.joints import ROOT
+from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]{1,6}(?:\.[0-9]*)?|\.[0-9]+)")
@@ -40,7 +41,7 @@ class Locate(Protocol):
 
 
 class World:
-    """Named positions: right-handed, m, y up; a character with heading 0 faces +z.
+    """Named positions: right-handed, m, y up; a character with heading 0 faces +z. Targets may have an orientation.
 
     Args:
         positions: of the fixed targets.
@@ -49,6 +50,7 @@ class World:
 
     def __init__(self, positions: Mapping[str, Vec3], radii: Mapping[str, float] = MappingProxyType({})) -> None:
         self._positions: dict[str, Vec3] = dict(positions)
+        self._orientations: dict[str, Quat] = {}
         self._radii = radii
         self._living: dict[str, Locate] = {}
         self._carried: dict[str, str] = {}
@@ -57,13 +59,22 @@ class World:
         """Make a character a target."""
         self._living[character] = locate
 
-    def move(self, target: str, position: Vec3 | None) -> None:
-        """Move a target; None removes it. It is no longer carried."""
+    def move(self, target: str, position: Vec3 | None, orientation: Quat | None = None) -> None:
+        """Move a target; without a position, remove it. It is no longer carried.
+
+        Args:
+            target: its name.
+            position: m.
+            orientation: a unit quaternion; None to keep the one that it has.
+        """
         self._carried.pop(target, None)
         if position is None:
             self._positions.pop(target, None)
-        else:
-            self._positions[target] = position
+            self._orientations.pop(target, None)
+            return
+        self._positions[target] = position
+        if orientation is not None:
+            self._orientations[target] = orientation
 
     def carry(self, target: str, joint: str) -> None:
         """Let a target that is no character follow a joint of one, ``alice:r_wrist``, until it is moved or put down."""
@@ -95,6 +106,14 @@ class World:
         if character in self._living:
             return self._living[character](joint or None, time)
         return self._positions.get(target) or _coordinates(target)
+
+    def orientation(self, target: str) -> Quat | None:
+        """Return the orientation of a target, a unit quaternion from its axes to those of the world.
+
+        Returns:
+            None if it has none: it was given none, or it is a character or a place. What is carried keeps its own.
+        """
+        return self._orientations.get(target)
 
     def lives(self, target: str) -> bool:
         """Return whether a target is a character, and not one of its joints."""

@@ -115,7 +115,7 @@ class Inbox:
         """Move targets."""
         for entry in entries:
             if isinstance(entry, TargetMoved):
-                _try(entry, self._world.move, entry.target, entry.position)
+                _try(entry, self._world.move, entry.target, entry.position, entry.orientation)
 
     def _event(self, entry: Input, now: GlobalTime) -> tuple[str, AnticipatorEvent] | None:
         match entry:

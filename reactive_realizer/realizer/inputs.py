@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.clock.units import Time
 from reactive_realizer.embodiment.audio import AudioHeard, StreamedAudio
+from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.errors import Fault
 
@@ -52,10 +53,17 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class TargetMoved:
-    """A new position (m, world) of a target; None if it is removed."""
+    """A new place of a target.
+
+    Attributes:
+        target: its name.
+        position: m, in the world; None if it is removed.
+        orientation: a unit quaternion from its axes to those of the world; None to keep the one that it has.
+    """
 
     target: str
     position: WorldPosition | None
+    orientation: Quat | None = None
 
 
 @dataclass(frozen=True, slots=True)

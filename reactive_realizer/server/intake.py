@@ -1,7 +1,7 @@
 """Requests of clients, checked and passed on as inputs of the realizer; and the demo."""
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from itertools import islice
@@ -22,11 +22,11 @@ from reactive_realizer.feedback.messages import BlockProgress
 from reactive_realizer.limits import Limits
 from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.inbox import TooManyNames
-from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push, TargetMoved, WorldPosition
+from reactive_realizer.realizer.inputs import BmlText, Event, Prediction, Push
 from reactive_realizer.server.faults import GoingAway, NoDemo, NotMovable, UnknownAnticipator, WrongMediaType
 from reactive_realizer.server.heard_reports import HeardReports
 from reactive_realizer.server.live_scene import LiveScene
-from reactive_realizer.server.protocol import Message, Received, push_of, read, streamed_of
+from reactive_realizer.server.protocol import Message, Received, moved_of, push_of, read, streamed_of
 from reactive_realizer.server.stream_senders import StreamSenders
 from reactive_realizer.server.turns import Turns
 
@@ -259,7 +259,7 @@ class Intake:
             case "event":
                 self._event(Event(message["anticipator"], message["event"], message.get("value"), message.get("text")))
             case "camera":
-                self._realizer.put(TargetMoved("camera", _position(message["position"])))
+                self._realizer.put(moved_of("camera", message["position"]))
             case "world":
                 self._move(message["set"])
             case "heard":
@@ -356,14 +356,9 @@ class Intake:
         limit, known = self._live.limits.targets, set(self._realizer.world.targets)
         if len(known | targets.keys()) > max(limit, len(known)):
             raise RealizerError(TooManyNames(limit=limit, things="targets"))
-        for target, position in targets.items():
-            self._realizer.put(TargetMoved(target, None if position is None else _position(position)))
+        for moved in [moved_of(target, place) for target, place in targets.items()]:
+            self._realizer.put(moved)
 
 
 def _place(problem: Problem) -> tuple[int, int]:
     return problem.fault.line or 1, problem.fault.column or 1
-
-
-def _position(coordinates: Sequence[float]) -> WorldPosition:
-    x, y, z = coordinates
-    return (float(x), float(y), float(z))

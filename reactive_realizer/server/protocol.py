@@ -1,6 +1,7 @@
 """Reads, checks and writes the text messages of the socket (protocol.json)."""
 
 import json
+import math
 from base64 import b64decode
 from collections.abc import Mapping, Sequence
 from json.scanner import py_make_scanner  # type: ignore[attr-defined]
@@ -10,8 +11,9 @@ from typing import Any, Final, NamedTuple
 
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.embodiment.audio import StreamedAudio
+from reactive_realizer.embodiment.quaternion import Quat, normalize
 from reactive_realizer.errors import RealizerError
-from reactive_realizer.realizer.inputs import Push
+from reactive_realizer.realizer.inputs import Push, TargetMoved
 from reactive_realizer.server.faults import BadJson, BadMessage, TooManyValues, UnknownMessage
 from reactive_realizer.server.schema import Schema, shown
 
@@ -20,6 +22,9 @@ VERSION: Final = 2
 
 DOCUMENT: Final = Path(__file__).with_name("protocol.json").read_text(encoding="utf-8")
 """The JSON Schema of every message."""
+
+_UNIT: Final = 1e-12
+"""Difference of the length of a unit quaternion from 1."""
 
 Message = Mapping[str, Any]
 
@@ -113,6 +118,36 @@ def push_of(message: Message) -> Push:
     """The push that a checked message requests."""
     x, y, z = message["force"]
     return Push(message["character"], message["joint"], (float(x), float(y), float(z)), message["duration"])
+
+
+def moved_of(target: str, place: Any) -> TargetMoved:
+    """The new place of a target in a checked message.
+
+    Args:
+        target: its name.
+        place: a position, a position with an orientation, or None if the target is removed.
+
+    Raises:
+        RealizerError: "bad-message": the orientation is a quaternion of length 0.
+    """
+    match place:
+        case {"position": [x, y, z], "orientation": [*quaternion]}:
+            return TargetMoved(target, (float(x), float(y), float(z)), _orientation(target, quaternion))
+        case [x, y, z]:
+            return TargetMoved(target, (float(x), float(y), float(z)))
+        case _:
+            return TargetMoved(target, None)
+
+
+def _orientation(target: str, quaternion: Sequence[float]) -> Quat:
+    """The unit quaternion of an orientation; one that is recorded stays as it is, so that a replay is the same."""
+    w, x, y, z = map(float, quaternion)
+    try:
+        unit = normalize((w, x, y, z))
+    except ArithmeticError:
+        reason = "a quaternion of length 0 is no orientation"
+        raise RealizerError(BadMessage(place=f"set.{target}.orientation", reason=reason)) from None
+    return (w, x, y, z) if math.isclose(math.hypot(w, x, y, z), 1.0, abs_tol=_UNIT) else unit
 
 
 def streamed_of(message: Message) -> StreamedAudio:

@@ -2,7 +2,7 @@
 
 import json
 from base64 import b64encode
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final, assert_never
@@ -37,7 +37,7 @@ from reactive_realizer.server.faults import (
     PartsOutOfOrder,
     TicksOutOfOrder,
 )
-from reactive_realizer.server.protocol import Message, check, decode, push_of, streamed_of
+from reactive_realizer.server.protocol import Message, check, decode, moved_of, push_of, streamed_of
 from reactive_realizer.server.recording_parts import part_path
 from reactive_realizer.server.schema import Schema, shown
 
@@ -58,8 +58,10 @@ def message_of(entry: Input) -> Message:
         case Event(anticipator, name, value, text):
             content = {key: what for key, what in (("value", value), ("text", text)) if what is not None}
             return {"type": "event", "anticipator": anticipator, "event": name, **content}
-        case TargetMoved(target, position):
+        case TargetMoved(target, position, None):
             return {"type": "world", "set": {target: position}}
+        case TargetMoved(target, position, orientation):
+            return {"type": "world", "set": {target: {"position": position, "orientation": orientation}}}
         case AudioHeard(id_, position, time):
             return {"type": "heard", "id": id_, "position": position, "time": time}
         case Push(character, joint, force, duration):
@@ -92,7 +94,8 @@ def input_of(message: Message, client: str = "", number: int = 0) -> Input:
         case {"type": "speech"}:
             return streamed_of(message)
         case {"type": "world", "set": targets} if len(targets) == 1:
-            return _moved(targets)
+            ((target, place),) = targets.items()
+            return moved_of(target, place)
         case _:
             raise RealizerError(NotRecorded(type=message["type"]))
 
@@ -114,14 +117,6 @@ def _text(message: Message) -> str | bytes:
         return xml.encode(encoding)
     except (TypeError, LookupError, UnicodeEncodeError) as problem:
         raise RealizerError(BadEncoding()) from problem
-
-
-def _moved(targets: Mapping[str, Sequence[float] | None]) -> TargetMoved:
-    ((target, position),) = targets.items()
-    if position is None:
-        return TargetMoved(target, None)
-    x, y, z = position
-    return TargetMoved(target, (x, y, z))
 
 
 _LINES: Final = Schema(json.loads(Path(__file__).with_name("recording.json").read_text(encoding="utf-8")))

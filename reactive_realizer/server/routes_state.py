@@ -2,6 +2,7 @@
 
 import json
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import asdict
 from itertools import islice
 
@@ -44,9 +45,13 @@ async def status(request: web.Request) -> web.Response:
 
 @routes.get("/world")
 async def world(request: web.Request) -> web.Response:
-    """The positions of all targets."""
-    places = request.app[LIVE].realizer.world.snapshot()
-    return web.json_response({"targets": {name: {"position": place} for name, place in places.items()}})
+    """The positions of all targets, and the orientations of those that have one."""
+    world = request.app[LIVE].realizer.world
+    targets: dict[str, dict[str, Sequence[float]]] = {}
+    for name, place in world.snapshot().items():
+        orientation = world.orientation(name)
+        targets[name] = {"position": place, **({} if orientation is None else {"orientation": orientation})}
+    return web.json_response({"targets": targets})
 
 
 @routes.get("/explain/{block}")

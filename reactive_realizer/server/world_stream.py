@@ -1,11 +1,12 @@
 """Where targets and characters are, for clients that ask for it."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from math import degrees
 from typing import Final
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.frame import Frame
+from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.server.frame_watch import FrameWatch
@@ -13,6 +14,8 @@ from reactive_realizer.server.protocol import encode
 
 _INTERVAL: Final = 0.1
 """Shortest time between two messages, s."""
+_Target = list[float] | dict[str, list[float]]
+"""Where a target is, m; or its position and its orientation, if it has one."""
 _Place = tuple[list[float], float]
 """Where a character stands, m, and its heading, degrees to the left of +z."""
 
@@ -26,7 +29,7 @@ class WorldStream:
     def __init__(self, realizer: Realizer) -> None:
         self._realizer = realizer
         self._watch: FrameWatch[str] = FrameWatch(realizer, self._publish)
-        self._targets: dict[str, list[float]] = {}
+        self._targets: dict[str, _Target] = {}
         self._characters: dict[str, _Place] = {}
         self._next = realizer.time
 
@@ -42,7 +45,8 @@ class WorldStream:
             return
         self._next = GlobalTime(now + _INTERVAL)
         world = self._realizer.world
-        targets = {name: _rounded(place) for name, place in world.snapshot().items() if not world.lives(name)}
+        places = ((name, place) for name, place in world.snapshot().items() if not world.lives(name))
+        targets = {name: _placed(place, world.orientation(name)) for name, place in places}
         humanoids = {id_: character.humanoid for id_, character in self._realizer.characters.items()}
         characters = {
             id_: (_rounded(figure.place.position), round(degrees(figure.place.heading), 1))
@@ -58,5 +62,11 @@ class WorldStream:
             self._watch.publish(encode(message))
 
 
-def _rounded(place: Vec3) -> list[float]:
-    return [round(value, 4) for value in place]
+def _placed(place: Vec3, orientation: Quat | None) -> _Target:
+    if orientation is None:
+        return _rounded(place)
+    return {"position": _rounded(place), "orientation": _rounded(orientation)}
+
+
+def _rounded(values: Iterable[float]) -> list[float]:
+    return [round(value, 4) for value in values]

@@ -82,9 +82,14 @@ class RealizerPilot:
         """Sends sound of a streamed speech at the next tick: mono PCM, int16, with the starts (s) of words in it."""
         self.realizer.put(StreamedAudio(name, audio, words, end), self.now)
 
-    def move(self, target: str, position: tuple[float, float, float] | None) -> None:
-        """Moves a target at the next tick; None removes it."""
-        self.realizer.put(TargetMoved(target, position), self.now)
+    def move(
+        self,
+        target: str,
+        position: tuple[float, float, float] | None,
+        orientation: tuple[float, float, float, float] | None = None,
+    ) -> None:
+        """Moves a target at the next tick, and turns it, if there is an orientation (w, x, y, z); None removes it."""
+        self.realizer.put(TargetMoved(target, position, orientation), self.now)
 
     def push(
         self, joint: str, force: tuple[float, float, float], duration: float, character: str | None = None

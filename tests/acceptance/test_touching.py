@@ -1,5 +1,6 @@
 """Hands that touch, take and put down targets, from BML to frames."""
 
+import math
 from collections.abc import AsyncIterator
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy.typing as npt
 import pytest
 
 from reactive_realizer.bml.names import BMLA, OWN
+from reactive_realizer.embodiment.quaternion import angle, conjugate, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.testing.pilot import RealizerPilot
 
@@ -189,6 +191,33 @@ async def test_a_hold_with_a_tied_end_ends_then(pilot: RealizerPilot) -> None:
     pilot.block("b", reach("hold", 'start="0" end="3"'))
     await pilot.advance(4)
     assert pilot.feedback.time("b:p:end") == 3.0
+
+
+@pytest.mark.parametrize("heading", [0.0, 40.0])
+async def test_a_hand_that_holds_on_turns_with_its_target(pilot: RealizerPilot, heading: float) -> None:
+    turn = from_axis_angle((0.0, 1.0, 0.0), math.radians(heading))
+    pilot.move("box", BOX, turn)
+    pilot.block("b", reach("hold", 'mode="RIGHT_HAND" ready="1"'))
+    await pilot.advance(3)
+    about = (math.sin(math.radians(heading)), 0.0, math.cos(math.radians(heading)))
+    pilot.move("box", BOX, multiply(from_axis_angle(about, math.radians(20)), turn))
+    await pilot.advance(2)
+    before, after = (pilot.bodies()[number].transform("r_wrist").rotation for number in (140, -1))
+    done = multiply(after, conjugate(before))
+    assert math.degrees(angle(done)) == pytest.approx(20, abs=1)
+    assert rotate(done, about) == pytest.approx(about, abs=0.01)
+    assert gaps(pilot, "r", BOX, 4.5, 5.0).max() < NEAR
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_hand_that_only_touches_does_not_turn_with_its_target(pilot: RealizerPilot) -> None:
+    pilot.move("box", BOX, (1.0, 0.0, 0.0, 0.0))
+    pilot.block("b", reach("touch", 'mode="RIGHT_HAND" ready="1" relax="6"'))
+    await pilot.advance(3)
+    pilot.move("box", BOX, from_axis_angle((0.0, 0.0, 1.0), math.radians(20)))
+    await pilot.advance(2)
+    before, after = (pilot.bodies()[number].transform("r_wrist").rotation for number in (140, -1))
+    assert math.degrees(angle(multiply(after, conjugate(before)))) < 1.0
 
 
 async def test_an_unknown_word_drops_the_behavior(pilot: RealizerPilot) -> None:

@@ -52,6 +52,10 @@ BAD = {
     "a position beyond the moon": ('{"type":"camera","position":[1,2,4e8]}', "bad-message"),
     "a world that is a list": ('{"type":"world","set":[]}', "bad-message"),
     "a target that is text": ('{"type":"world","set":{"bluebox":"there"}}', "bad-message"),
+    "a target without a length of its orientation": (
+        '{"type":"world","set":{"box":{"position":[0,0,0],"orientation":[0,0,0,0]}}}',
+        "bad-message",
+    ),
     "a character that is moved": ('{"type":"world","set":{"alice":[0,0,0]}}', "not-movable"),
     "a sound that nobody makes": ('{"type":"heard","id":"alice-1","position":0,"time":0}', "no-clip"),
     "a position before the sound": ('{"type":"heard","id":"alice-1","position":-1,"time":0}', "bad-message"),

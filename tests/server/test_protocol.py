@@ -82,6 +82,10 @@ def test_every_definition_has_its_own_name_as_title() -> None:
             {"type": "world", "set": {"bluebox": [0, 0, "up"]}},
             'set.bluebox.2: "up" does not satisfy type "number"',
         ),
+        (
+            {"type": "world", "set": {"bluebox": {"position": [0, 0, 0], "orientation": [1, 0, 0]}}},
+            "set.bluebox: ",
+        ),
         ({"type": "bml"}, "bml: 'xml' is a required property"),
         (
             {"type": "predict", "anticipator": "a:b", "sync": "s", "in": 1},

@@ -14,6 +14,7 @@ from reactive_realizer.assembly.scene import DEFAULT_HUMAN, SceneOptions, open_s
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioHeard, StreamedAudio
+from reactive_realizer.embodiment.quaternion import normalize
 from reactive_realizer.engines.speech.speech_worker import VoiceFailed
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.realizer.inputs import (
@@ -48,6 +49,7 @@ INPUTS: list[Input] = [
     Event("metronome", "tempo", 92.5, "faster"),
     TargetMoved("bluebox", (0.1, 1.0, -2.5)),
     TargetMoved("bluebox", None),
+    TargetMoved("bluebox", (0.1, 1.0, -2.5), normalize((0.1, 0.2, 0.3, -0.4))),
     AudioHeard("alice-1", 0.1 + 0.2, GlobalTime(1.7)),
     Push("alice", "vt10", (0.1, 0.0, -2.5), 0.5),
     StreamedAudio("reply", b"\x00\xff\x01", (("Hé", 0.1 + 0.2),), end=True),
@@ -189,7 +191,7 @@ def test_all_complete_ticks_of_a_truncated_file_are_read(read: Callable[[str | b
 
 
 GOOD = recorded(SESSION).splitlines()
-EVENT = '{"seq": 18, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
+EVENT = '{"seq": 19, "tick": 10, "time": 0.1, "input": {"type": "event", "anticipator": "a", "event": "e"}}'
 FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time": null}}'
 
 
@@ -209,7 +211,7 @@ FORECAST = '{"tick": 9, "forecast": {"anticipator": "m", "sync": "tick1", "time"
         ([GOOD[0], '{"tick": 3, "count": 4}', '{"tick": 6}'], 3, "tick 6 follows tick 6"),
         ([GOOD[0], '{"tick": 3, "count": 0}'], 2, "minimum 1"),
         ([GOOD[0], '{"tick": 3, "count": 1e9}'], 2, "maximum 100"),
-        ([GOOD[0], EVENT.replace("18", "2")], 2, "input 2 follows where input 1"),
+        ([GOOD[0], EVENT.replace("19", "2")], 2, "input 2 follows where input 1"),
         ([*GOOD, EVENT.replace("10", "9")], len(GOOD) + 1, "tick 9 follows tick 9"),
         ([*GOOD, EVENT, '{"tick": 11}'], len(GOOD) + 2, "tick 11 follows tick 10"),
         ([GOOD[0], FORECAST], 2, "tick 9 follows tick -1"),

@@ -280,6 +280,31 @@ async def test_the_world_is_told_on_request_when_something_in_it_moves(on_air: O
         assert walk[-1]["position"][2] == pytest.approx(2.0, abs=0.1)
 
 
+async def test_an_orientation_is_told_until_its_target_is_removed(on_air: Open) -> None:
+    async with on_air() as air:
+        page, planner = await air.connect("?streams=world"), await air.connect("?streams=")
+
+        async def cups(until: float) -> list[object]:
+            await air.tick_until(until)
+            await page.say(type="clock")
+            told: list[object] = []
+            while (message := await page.hear())["type"] != "clock":
+                told += [message["targets"]["cup"]] if "cup" in message["targets"] else []
+            return told
+
+        turned = {"position": [0.5, 1.0, 2.0], "orientation": [0.6, 0.0, 0.8, 0.0]}
+        await planner.ask(type="world", set={"cup": {"position": [0.5, 1, 2], "orientation": [3, 0, 4, 0]}})
+        assert await cups(0.5) == [turned]
+        async with air.client.get("/world") as answer:
+            cup = (await answer.json())["targets"]["cup"]
+        assert cup == {**turned, "orientation": pytest.approx(turned["orientation"])}
+        await planner.ask(type="world", set={"cup": [1, 1, 1]})
+        assert await cups(1.0) == [{**turned, "position": [1.0, 1.0, 1.0]}]
+        await planner.ask(type="world", set={"cup": None})
+        await planner.ask(type="world", set={"cup": [1, 1, 1]})
+        assert await cups(1.5) == [[1.0, 1.0, 1.0]]
+
+
 async def test_a_target_in_a_hand_moves_with_it(on_air: Open) -> None:
     take = (
         f'<bml {BML} xmlns:rr="urn:reactive-realizer:1" id="b">'

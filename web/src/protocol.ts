@@ -36,6 +36,13 @@ export type Seconds = number;
  */
 export type Position = [number, number, number];
 /**
+ * w, x, y, z of a rotation from the axes of a thing to those of the world; of any length but 0.
+ *
+ * @minItems 4
+ * @maxItems 4
+ */
+export type Quaternion = [number, number, number, number];
+/**
  * A part of a sync reference: 1 to 200 characters, no white space, control character, colon, plus sign or half of a surrogate pair.
  */
 export type Name1 = string;
@@ -151,9 +158,16 @@ export interface Camera {
 export interface WorldChange {
   type: "world";
   set: {
-    [k: string]: Position | null;
+    [k: string]: Position | Placed | null;
   };
   ref?: Ref;
+}
+/**
+ * Where a target with an orientation is.
+ */
+export interface Placed {
+  position: Position;
+  orientation: Quaternion;
 }
 /**
  * Reports what is heard of a sound: which position of it (s), at the moment at which the frames of a time are shown. One client leads each sound; the reports of others have no effect.
@@ -390,7 +404,7 @@ export interface Targets {
   type: "targets";
   time: Seconds;
   targets: {
-    [k: string]: Position | null;
+    [k: string]: Position | Placed | null;
   };
   characters: {
     [k: string]: Standing;

@@ -14,6 +14,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.feet import walks
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.place import Place
+from reactive_realizer.embodiment.quaternion import Quat, conjugate, multiply
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.embodiment.world import World
 from reactive_realizer.engines.animation.expression.functions import Function
@@ -181,3 +182,13 @@ def target_locator(context: MakerContext, target: str, *, follow: bool) -> Targe
         return humanoid.to_own_frame(seen[0] if seen else known)
 
     return locate
+
+
+def target_turn(context: MakerContext, target: str) -> Callable[[], Quat | None]:
+    """Return what tells the orientation of a target in the figure's frame; None if it has none."""
+
+    def turn() -> Quat | None:
+        orientation = context.world.orientation(target)
+        return None if orientation is None else multiply(conjugate(context.humanoid.place.turn), orientation)
+
+    return turn

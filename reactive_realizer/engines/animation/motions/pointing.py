@@ -24,6 +24,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     arms_used,
 )
 from reactive_realizer.engines.animation.motions.gesture import HOLD, HOLD_RANGE
+from reactive_realizer.engines.animation.motions.grip import Grip
 from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, PointingArm
 from reactive_realizer.engines.animation.motions.reaching import (
     gesture_key_positions,
@@ -93,6 +94,7 @@ class PointingMotionUnit(MotionUnit):
         parameters: Mapping[str, float] = DEFAULTS,
         facing: "Facing | None" = None,
         arrived: Callable[[], None] | None = None,
+        held: Callable[[], Quat | None] | None = None,
     ) -> None:
         """Plan a pointing gesture.
 
@@ -106,9 +108,12 @@ class PointingMotionUnit(MotionUnit):
             parameters: a valid value for each of `RANGES`; and of expressivity, 0 for those that are missing.
             facing: the turn of the feet; None if they stay.
             arrived: is called once, when the hands have arrived; from then on, they stay there until they relax.
+            held: returns the orientation of a target with which the hands turn, in the figure's frame; None if it has
+                none.
         """
         self._arrived, self._keeps = arrived, False
         self._plays, self._before = False, 0.0
+        self._held, self._grip = held, None if held is None else Grip(held)
         self._facing = facing
         self.steps = facing is not None
         self.parameters = {**NEUTRAL.parameters, **parameters}
@@ -174,6 +179,7 @@ class PointingMotionUnit(MotionUnit):
     def start(self, body: Body) -> None:
         """Start from the current pose of the arms."""
         self._plays = True
+        self._grip = None if self._held is None else Grip(self._held)
         self._begin = {joint: body.rotation(joint) for joint in self.joints}
         self._arcs = GrowingArcs()
         if self._facing is not None:
@@ -183,11 +189,13 @@ class PointingMotionUnit(MotionUnit):
         """Return the rotations of arms and fingers; retraction fades to the layers below."""
         keys, phase, expressivity = self.key_positions, moment.phase, self._expressivity()
         if (phase <= keys["relax"] and not self._keeps) or not self._aimed:
-            aims = self._aim(self._figure(moment.time), expressivity, moment.time)
+            body = self._figure(moment.time)
+            aims = self._aim(body, expressivity, moment.time)
             self._aimed = _turns(aims)
             self._goals = self._hand_goals(self._place(moment.time))
             if phase >= keys["ready"] and self._plays:
                 self.fault = self.fault or self._missed(aims)
+                self._hold(body)
         prepared, gone = share(phase, 0.0, keys["ready"]), self._profile(share(phase, keys["relax"], 1.0))
         if moment.shown is not None:
             self.hands = tuple(hand._replace(share=minimum_jerk(prepared) * (1.0 - gone)) for hand in self._goals)
@@ -221,8 +229,21 @@ class PointingMotionUnit(MotionUnit):
         return on_way(arms, turned, way, body)
 
     def _aim(self, body: Body, expressivity: Expressivity, time: GlobalTime | None = None) -> list[ArmPose]:
-        target = self._place(time)
-        return [arm.aim(body, target, expressivity.spatial_extent) for arm in self._arms]
+        target, extent = self._place(time), expressivity.spatial_extent
+        return [
+            arm.aim(body, target, extent, self._grip.turn(arm.side))
+            if isinstance(arm, TouchingArm) and self._grip is not None
+            else arm.aim(body, target, extent)
+            for arm in self._arms
+        ]
+
+    def _hold(self, body: Body) -> None:
+        """Have hands that are at the target turn with it."""
+        if self._grip is not None:
+            there = body.posed(self._aimed)
+            for arm in self._arms:
+                if isinstance(arm, TouchingArm):
+                    self._grip.hold(arm.side, arm.hand_turn(there))
 
     def _place(self, time: GlobalTime | None) -> Vec3:
         """Return the place of the target at a time, in the figure's frame after its turn, m."""

@@ -10,7 +10,13 @@ from reactive_realizer.bml.vocabulary import Mode, Reach
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.place import heading_of
 from reactive_realizer.engines.animation.faults import NoJoints, NoSuchReach, NotPointable, WrongElement
-from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest, TargetLocator, target_locator
+from reactive_realizer.engines.animation.motion_maker import (
+    MakerContext,
+    MotionRequest,
+    TargetLocator,
+    target_locator,
+    target_turn,
+)
 from reactive_realizer.engines.animation.motion_parameters import parameter_values
 from reactive_realizer.engines.animation.motion_unit import EXPRESSIVITY_RANGES
 from reactive_realizer.engines.animation.motions.gesture import HOLD
@@ -67,7 +73,10 @@ class PointingMaker:
         parameters = {**DEFAULTS, **self._context.expressivity.parameters, **given, **stay}
         carries = action in (Reach.TAKE, Reach.PUT)
         arrived = partial(self._arrive, action, behavior.target, chosen) if carries else None
-        return PointingMotionUnit(behavior.target, chosen, target, humanoid.expected, rest, parameters, facing, arrived)
+        held = target_turn(self._context, behavior.target) if action == Reach.HOLD else None
+        return PointingMotionUnit(
+            behavior.target, chosen, target, humanoid.expected, rest, parameters, facing, arrived, held
+        )
 
     def _arrive(self, action: str, target: str, arms: Sequence[AimedArm]) -> None:
         """Let the hands that have arrived take their target, or put down what they carry."""

@@ -5,8 +5,9 @@ from functools import cached_property, reduce
 
 from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, rotate
-from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale, subtract
+from reactive_realizer.embodiment.vector import FORWARD, ZERO, Vec3, add, scale, subtract
 from reactive_realizer.engines.animation.key_poses.arm_pose import ArmGoals, SolvedArm
+from reactive_realizer.engines.animation.key_poses.direction import Direction
 from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, hand_of
 from reactive_realizer.engines.animation.spine_ik import HandGoal
 
@@ -14,6 +15,8 @@ _NEEDED = ("shoulder", "elbow", "wrist")
 _FINGERS = ("index", "middle", "ring", "pinky")
 _MIDDLE_FINGER = ("middle1", "middle2", "middle3")
 _ROUNDS, _DAMPING = 6, 0.6
+_DOWN: Vec3 = (0.0, -1.0, 0.0)
+"""The fingers of a hanging hand."""
 _NEAR = 0.02
 """Distance up to which a target is touched, m."""
 
@@ -51,21 +54,22 @@ class TouchingArm:
         """The joints that touching turns."""
         return frozenset((*(f"{self.side}_{name}" for name in _NEEDED), *self._fingers))
 
-    def aim(self, body: Body, target: Vec3, extent: float = 0.0) -> ArmPose:
+    def aim(self, body: Body, target: Vec3, extent: float = 0.0, turn: Quat | None = None) -> ArmPose:
         """Bring the fingertips to a target, or as near as possible.
 
         Args:
             body: with the current trunk.
             target: in the figure's frame, m.
             extent: has no effect, because the place of the hand is given.
+            turn: rotation of the hand from its axes to the figure's, as far as forearm and wrist allow; None for a hand
+                in line with the forearm.
         """
         goal, hand = subtract(target, body.transform(body.skeleton.joints[0]).position), ZERO
-        solved = self._with_wrist_at(goal, body)
+        solved = self._with_wrist_at(goal, body, turn)
         for _ in range(_ROUNDS):  # how the hand turns depends on where the wrist is
-            wrist = body.posed(solved.rotations).transform(f"{self.side}_wrist")
-            turned = subtract(rotate(wrist.rotation, self._tip), hand)
+            turned = subtract(rotate(self.hand_turn(body.posed(solved.rotations)), self._tip), hand)
             hand = add(hand, scale(turned, _DAMPING))
-            solved = self._with_wrist_at(subtract(goal, hand), body)
+            solved = self._with_wrist_at(subtract(goal, hand), body, turn)
         fault = f"it is {solved.missing:.2f} m too far away" if solved.missing > _NEAR else None
         return ArmPose({**solved.rotations, **self._fingers}, fault)
 
@@ -73,8 +77,13 @@ class TouchingArm:
         """Return the goal of the hand for a target in the figure's frame, m."""
         return HandGoal(self.side, target, ArmGoals(self.side, None, self._tip).hand_length(self.skeleton, IDENTITY))
 
-    def _with_wrist_at(self, place: Vec3, body: Body) -> SolvedArm:
-        return ArmGoals(self.side, place).solve(body, IDENTITY)
+    def hand_turn(self, body: Body) -> Quat:
+        """Return the rotation of the hand from its axes to the figure's."""
+        return body.transform(f"{self.side}_wrist").rotation
+
+    def _with_wrist_at(self, place: Vec3, body: Body, turn: Quat | None) -> SolvedArm:
+        ways = () if turn is None else tuple(Direction(axis, rotate(turn, axis)) for axis in (_DOWN, FORWARD))
+        return ArmGoals(self.side, place, directions=ways).solve(body, IDENTITY)
 
     @cached_property
     def _fingers(self) -> dict[str, Quat]:
