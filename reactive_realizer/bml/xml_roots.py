@@ -126,13 +126,13 @@ class _RootBuilder:
     """Builds the tree of one top-level element, or finds a reason to refuse it.
 
     Attributes:
-        id: from its start tag, not validated; "bml" if it has none.
+        id: from its start tag, not validated; "bml" if it has none, or is refused for its document.
         open: local name and location of the elements that have not ended.
         refused: the first reason to refuse it.
     """
 
     def __init__(self, attributes: Mapping[str, str], limits: Limits, refused: Fault | None) -> None:
-        self.id = quoted(attributes.get("id", "")) or BLOCK
+        self.id = BLOCK if refused else quoted(attributes.get("id", "")) or BLOCK
         self.open: list[tuple[str, Location]] = []
         self._limits = limits
         self.refused = refused

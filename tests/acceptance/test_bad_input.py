@@ -66,7 +66,7 @@ REFUSED = [
     ("<bml>", "bml", "PARSING_FAILURE", "line 1"),
     ('<bml id="b"><head id="x"</bml>', "b", "PARSING_FAILURE", "line 1"),
     ("<bml id=''><wait/></bml>", "bml", "PARSING_FAILURE", "no id"),
-    ("<!DOCTYPE bml [<!ENTITY a 'b'>]><bml id='b'/>", "b", "PARSING_FAILURE", "DOCTYPE"),
+    ("<!DOCTYPE bml [<!ENTITY a 'b'>]><bml id='b'/>", "bml", "PARSING_FAILURE", "DOCTYPE"),
     ("<html/>", "bml", "PARSING_FAILURE", "html"),
     ("", "bml", "PARSING_FAILURE", "no bml block"),
     (b"\x00\xff\xfe\x01", "bml", "PARSING_FAILURE", ""),
