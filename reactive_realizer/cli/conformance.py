@@ -10,7 +10,7 @@ from reactive_realizer.cli.realize import seconds
 from reactive_realizer.client.broker_options import USER_OF_BROKER, add_broker, broker_of
 from reactive_realizer.conformance.broker_connection import BrokerConnection
 from reactive_realizer.conformance.case import PROFILES, Profile, read_suite
-from reactive_realizer.conformance.connection import Connection, ProgramConnection, SocketConnection
+from reactive_realizer.conformance.connection import START, Connection, ProgramConnection, SocketConnection
 from reactive_realizer.conformance.suite import PATIENCE, TOLERANCE, Outcome, Verdict, run_suite
 
 _ALL = "all"
@@ -53,6 +53,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help=f"tolerance of times; {TOLERANCE:g} by default",
     )
+    parser.add_argument(
+        "--start",
+        type=seconds,
+        default=START,
+        metavar="S",
+        help=f"how long the realizer may need to its first feedback; {START:g} by default",
+    )
     parser.add_argument("--json", action="store_true", help="print a JSON object instead of a table")
     parser.add_argument(
         "--case", action="append", choices=names, metavar="NAME", help=f"run only this case: {', '.join(names)}"
@@ -78,10 +85,10 @@ async def _run(options: argparse.Namespace) -> int:
 
 def _connection(options: argparse.Namespace) -> Connection:
     if options.program:
-        return ProgramConnection(options.program, PATIENCE)
+        return ProgramConnection(options.program, PATIENCE, options.start)
     if options.agent:
-        return BrokerConnection(broker_of(options), options.scope, options.agent, PATIENCE)
-    return SocketConnection(options.url, PATIENCE)
+        return BrokerConnection(broker_of(options), options.scope, options.agent, PATIENCE, options.start)
+    return SocketConnection(options.url, PATIENCE, options.start)
 
 
 async def _print_table(outcomes: AsyncIterator[Outcome]) -> Counter[Verdict]:

@@ -12,7 +12,7 @@ from lxml import etree
 from reactive_realizer.client.realizer_socket import NotReached
 from reactive_realizer.client.stomp_bus import Broker, StompBus, connected
 from reactive_realizer.client.vh_message import VhMessage
-from reactive_realizer.conformance.connection import Connection
+from reactive_realizer.conformance.connection import START, Connection
 from reactive_realizer.conformance.vhmsg_feedback import Timed, VhmsgFeedback
 from reactive_realizer.errors import RealizerError
 
@@ -29,6 +29,7 @@ class BrokerConnection(Connection):
         scope: of its messages.
         agent: that plays what is sent.
         patience: time limit for every answer, s.
+        start: time limit for the first feedback, s.
     """
 
     unfit = MappingProxyType(
@@ -41,8 +42,8 @@ class BrokerConnection(Connection):
         }
     )
 
-    def __init__(self, broker: Broker, scope: str, agent: str, patience: float) -> None:
-        super().__init__(patience)
+    def __init__(self, broker: Broker, scope: str, agent: str, patience: float, start: float = START) -> None:
+        super().__init__(patience, start)
         self._broker = broker
         self._scope = scope
         self._agent = agent

@@ -8,14 +8,18 @@ from asyncio.subprocess import PIPE, Process
 from collections.abc import Callable, Mapping
 from itertools import count
 from types import MappingProxyType
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Final, Self
 
 from lxml import etree
 
 from reactive_realizer.client.realizer_socket import NotReached, RealizerSocket
-from reactive_realizer.errors import RealizerError
+from reactive_realizer.errors import RealizerError, quoted
 from reactive_realizer.testing.feedback_list import FeedbackList
 
+START: Final = 5.0
+"""Time limit for the first feedback, s."""
+_SENT: Final = ("bml", "act")
+"""What a realizer is sent, and some programs send back."""
 _LONGEST_LINE = 16_000_000
 """Bytes."""
 
@@ -25,6 +29,7 @@ class Connection(ABC):
 
     Args:
         patience: time limit for every answer, s.
+        start: time limit for the first feedback, s.
 
     Attributes:
         feedback: all feedback since the last `forget`.
@@ -37,10 +42,12 @@ class Connection(ABC):
 
     unfit: ClassVar[Mapping[str, str]] = MappingProxyType({})
 
-    def __init__(self, patience: float) -> None:
+    def __init__(self, patience: float, start: float = START) -> None:
         self.feedback = FeedbackList()
         self.mistakes: list[str] = []
         self._silent = True
+        self._said = ""
+        self._limit = min(start, patience)
         self._patience = patience
 
     @abstractmethod
@@ -67,30 +74,43 @@ class Connection(ABC):
         self._silent = True
 
     def check_alive(self) -> None:
-        """Checks that any message was received since `forget`.
+        """Checks that any feedback was received since `forget`.
 
         Raises:
             RealizerError: "not-reached".
         """
         if self._silent:
-            raise self._not_reached(f"it accepted a document, but sent no message for {self._patience:g} s")
+            instead = f", only '{self._said}'" if self._said else ""
+            raise self._not_reached(f"it was sent a block, but sent no feedback for {self._limit:g} s{instead}")
 
     async def until(self, condition: Callable[[], bool]) -> bool:
         """Receives messages until a condition holds; returns whether it held in time."""
         try:
-            async with asyncio.timeout(self._patience):
+            async with asyncio.timeout(self._limit):
                 while not condition():
                     await self._receive()
-                    self._silent = False
         except TimeoutError:
             return False
         return True
 
     def _add(self, time: float, xml: str) -> None:
         try:
-            self.feedback.add(time, xml)
+            kind = etree.QName(etree.fromstring(xml)).localname
         except etree.XMLSyntaxError as problem:
             self.mistakes.append(f"feedback that is not XML: {problem}")
+            self._note_other(xml)
+            return
+        if kind in _SENT:
+            self.mistakes.append(f"<{kind}> is not feedback")
+            self._note_other(xml)
+            return
+        self.feedback.add(time, xml)
+        self._silent = False
+        self._limit = self._patience
+
+    def _note_other(self, text: str) -> None:
+        """Remembers what was received instead of feedback."""
+        self._said = quoted(text)
 
 
 class SocketConnection(Connection):
@@ -99,10 +119,11 @@ class SocketConnection(Connection):
     Args:
         url: of the realizer's server or its socket; its query may contain a token.
         patience: time limit for every answer, s.
+        start: time limit for the first feedback, s.
     """
 
-    def __init__(self, url: str, patience: float) -> None:
-        super().__init__(patience)
+    def __init__(self, url: str, patience: float, start: float = START) -> None:
+        super().__init__(patience, start)
         self._socket = RealizerSocket(url, patience)
         self._refs = count(1)
         self._answered: set[object] = set()
@@ -146,10 +167,11 @@ class ProgramConnection(Connection):
     Args:
         command: the program and its arguments, as in a shell.
         patience: time limit for every answer, s.
+        start: time limit for the first feedback, s.
     """
 
-    def __init__(self, command: str, patience: float) -> None:
-        super().__init__(patience)
+    def __init__(self, command: str, patience: float, start: float = START) -> None:
+        super().__init__(patience, start)
         self._command = command
         self._clock = asyncio.get_running_loop().time
 
@@ -189,6 +211,8 @@ class ProgramConnection(Connection):
         text = line.decode(errors="replace").strip()
         if text.startswith("<"):
             self._add(self._clock(), text)
+        else:
+            self._note_other(text)
 
     def _not_reached(self, reason: str) -> RealizerError:
         return RealizerError(NotReached(url=self._command, reason=reason))

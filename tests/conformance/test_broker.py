@@ -134,7 +134,7 @@ async def talk(bus: StompBus, text: str) -> None:
 
 
 async def test_a_realizer_that_says_nothing_is_not_alive(broker: Broker) -> None:
-    with pytest.raises(RealizerError, match="sent no message for"):
+    with pytest.raises(RealizerError, match="sent no feedback for"):
         async for _ in run_suite(BrokerConnection(broker, SCOPE, "brad", 0.2), []):
             pass
 

@@ -142,7 +142,26 @@ async def test_the_exit_status_is_2_if_the_program_says_nothing(
     monkeypatch.setattr(command, "PATIENCE", 0.05)
     program = f'{sys.executable} -c "import sys; sys.stdin.read()"'
     assert await conformance("--program", program) == 2
-    assert "sent no message for 0.05 s" in capsys.readouterr().err
+    assert "sent no feedback for 0.05 s" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ("cat", "sent no feedback for 0.3 s, only '<bml xmlns="),
+        ("sh -c 'echo loading; cat >/dev/null'", "sent no feedback for 0.3 s, only 'loading'"),
+        ("sh -c 'while read line; do echo \"<oops\"; done'", "sent no feedback for 0.3 s, only '<oops'"),
+        ("sh -c 'cat >/dev/null'", "sent no feedback for 0.3 s\n"),
+    ],
+    ids=["an echo", "a log", "no XML", "silence"],
+)
+async def test_the_exit_status_is_2_soon_if_the_program_sends_no_feedback(
+    capsys: pytest.CaptureFixture[str], program: str, said: str
+) -> None:
+    assert await conformance("--program", program, "--start", "0.3") == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert said in captured.err
 
 
 @pytest.mark.parametrize(("option", "said"), [("--tolerance=nan", "nan"), ("--profile=x", "'bml', 'bmla', 'ext")])
@@ -218,7 +237,7 @@ async def test_the_exit_status_is_2_after_one_case_if_the_realizer_does_not_resp
 
     async with address_of(listen) as url:
         assert await conformance(url) == 2
-    assert "sent no message for 0.05 s" in capsys.readouterr().err
+    assert "sent no feedback for 0.05 s" in capsys.readouterr().err
     assert len(listened) == 1
 
 
