@@ -456,6 +456,17 @@ class NoCounterpart(Fault):
     attributes: tuple[str, ...]
 
 
+class PlaysOver(Fault):
+    """A blend of SmartBody that changes the mixture of the one that plays."""
+
+    code = "plays-over"
+    template = (
+        "mode='update' names no behavior that it changes, so this blend plays over the one that plays; "
+        "a parametervaluechange changes that one"
+    )
+    warning = WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
+
+
 class NoOrientation(ParsingFault):
     """A movement of the head of SmartBody that is to turn it to a target, and has none."""
 

@@ -141,6 +141,20 @@ async def test_an_animation_plays_at_its_speed(
     assert end - start == pytest.approx(duration, abs=0.011)
 
 
+async def test_a_clip_that_is_queued_starts_when_the_one_before_it_ends(open_still: OpenStill, tmp_path: Path) -> None:
+    (tmp_path / "Brad@Raise.skm").write_text(MOTION)
+    queued = '<animation id="b" name="Brad@Raise" sbm:schedule-mode="Queued"/>'
+    async with open_still(tmp_path) as pilot:
+        pilot.perform(act(f'<animation id="a" name="Brad@Raise" start="0.5"/>{queued}'))
+        await pilot.advance(5)
+    assert pilot.feedback.warnings == []
+    assert (
+        pilot.feedback.time("document1:b:start")
+        == pilot.feedback.time("document1:a:end")
+        == pytest.approx(2.0, abs=0.011)
+    )
+
+
 async def test_the_posture_of_a_body_may_be_the_first_frame_of_a_motion(open_still: OpenStill, tmp_path: Path) -> None:
     (tmp_path / "Brad@Idle02.skm").write_text(MOTION.replace("kt 0 fr 0 0 -1.5", "kt 0 fr 0 0 -0.9"))
     async with open_still(tmp_path) as pilot:

@@ -20,10 +20,17 @@ OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax", "
 _PREFIX: Final = f"{{{SBM}}}"
 
 
+def value_of(tree: Tree, name: str) -> str:
+    """The text of an attribute, written with SmartBody's prefix or without; empty if it is not written."""
+    return str(tree.get(_PREFIX + name, "")).strip() or str(tree.get(name, "")).strip()
+
+
 def take(tree: Tree, name: str) -> str:
     """Removes an attribute, written with SmartBody's prefix or without; its text, empty if it is not written."""
-    plain, own = (str(tree.attrib.pop(each, "")).strip() for each in (name, _PREFIX + name))
-    return own or plain
+    value = value_of(tree, name)
+    for each in (name, _PREFIX + name):
+        tree.attrib.pop(each, "")
+    return value
 
 
 def take_number(tree: Tree, name: str, source: BlockSource, low: float, high: float) -> float | None:

@@ -2,14 +2,15 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from itertools import groupby, islice
+from itertools import groupby, islice, pairwise
 from typing import Final
 
 from lxml import etree
 
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.names import SBM
-from reactive_realizer.bml.smartbody.attributes import WITHOUT_EFFECT, drop, set_parameter, take
+from reactive_realizer.bml.smartbody.attributes import WITHOUT_EFFECT, drop, set_parameter, take, value_of
+from reactive_realizer.bml.smartbody.gestures import loops
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 
 _JOINTS: Final = "joint-range"
@@ -24,6 +25,9 @@ _OF_NOISE: Final = tuple(
 """Attributes that the noise of each joint has."""
 _OF_EACH_WAY: Final = ("speed", "manner")
 """Attributes of a way along several points that the way to each of them has."""
+_CLIPS: Final = frozenset({"animation", "states", "blend"})
+_SCHEDULE: Final = "schedule-mode"
+_QUEUED: Final = "queued"
 _OF_ONE_FACE: Final = frozenset({"type", "au", "side", "amount"})
 """Attributes in which faces differ that are one."""
 
@@ -33,11 +37,13 @@ def regroup(block: Tree, source: BlockSource) -> None:
 
     - Action units with the same times become one face, so that they move the mouth together.
     - Noise of several joints becomes noise of each, and noise in the hold of a gesture a behavior of its own.
+    - A clip that is queued starts at the end of the one before it.
     - A reach with a walk becomes a walk and a reach, and a way along several points becomes several ways.
     """
     room = source.limits.behaviors_per_block
     for holder in [block, *block.iter("required")]:
         _join_faces(holder, source)
+        _queue_clips(holder, source)
         for tree in list(holder):
             split = _SPLITS.get(name_of(tree))
             if split is not None and namespace_of(tree) in {"", SBM}:
@@ -72,6 +78,17 @@ def _join_faces(holder: Tree, source: BlockSource) -> None:
             face.tag = "faceFacs"
             whole.append(face)  # with the text behind it
         whole.tail, faces[-1].tail = faces[-1].tail, None
+
+
+def _queue_clips(holder: Tree, source: BlockSource) -> None:
+    """Ties the start of each clip that is queued to the end of the one before it, if that one ends of itself."""
+    clips = [tree for tree in holder if name_of(tree) in _CLIPS and namespace_of(tree) in {"", SBM}]
+    for before, clip in pairwise(clips):
+        ends = not loops(before) or {"end", "relax"} & set(before.keys()) or value_of(before, "duration")
+        if value_of(clip, _SCHEDULE).lower() == _QUEUED and ends:
+            drop(clip, _SCHEDULE)
+            _give_id(before, source)
+            clip.set("start", f"{before.get('id')}:end")
 
 
 def _times_of_face(tree: Tree) -> tuple[tuple[str, str], ...] | None:

@@ -84,11 +84,16 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
 
 
 def _choose_joints(tree: Tree, source: BlockSource) -> None:
-    """From the lowest to the highest of the joints that are named, as SmartBody does."""
-    keys = take(tree, "joint-range").upper().split()
+    """From the lowest to the highest of the joints that are named, as SmartBody does.
+
+    The highest one points at the target, which is also the priority joint of SmartBody unless it says otherwise.
+    """
+    keys, priority = take(tree, "joint-range").upper().split(), take(tree, "priority-joint")
     named = [_KEYS[key] for key in keys if key in _KEYS]
     if keys and not named:
         give_back(tree, "joint-range", " ".join(keys))
+    if priority and _KEYS.get(priority.upper()) != max(named or _INFLUENCES, key=list(_INFLUENCES).index):
+        give_back(tree, "priority-joint", priority)
     if not named or "influence" in tree.attrib:
         return
     groups = list(_INFLUENCES)

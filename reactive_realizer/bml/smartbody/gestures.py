@@ -3,6 +3,7 @@
 from typing import Final
 
 from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.faults import PlaysOver
 from reactive_realizer.bml.names import BMLT, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     OTHER_POINTS,
@@ -12,6 +13,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     take,
     take_number,
     tie,
+    value_of,
 )
 from reactive_realizer.bml.smartbody.joints import joint_named
 from reactive_realizer.bml.trees import Tree, name_of
@@ -45,6 +47,8 @@ _OF_CLIPS: Final = ("style", "emotion", "overlay", "prestroke_hold_idlemotion", 
 """Attributes for the choice of clips, and for tracks of motion."""
 _AS_HERE: Final = {"overlay": "false", "mode": "schedule", "schedule-mode": "now"}
 """Attributes of clips, and the values with which they ask for what happens here anyway."""
+_UPDATE: Final = "update"
+"""The mode of a blend that changes the mixture of the one that plays."""
 _ANIMATION: Final = "animation"
 """The clips that are played once by default; states and blends are loops."""
 _AXES: Final = "xyz"
@@ -91,17 +95,25 @@ def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
         tie(tree, "end", "start", duration)
     if partial := take(tree, "partial-joint"):
         set_parameter(tree, "below", joint_named(partial), source)
-    if _loops(tree):
+    if loops(tree):
         set_parameter(tree, "loop", "true", source)
+    drop(tree, "wrap-mode", "loop")
     _mix(tree, source)
-    faults = left_out(tree, source, *_OF_CLIPS, "loop", "mode")
+    updates = [_update(tree, source)] if value_of(tree, "mode").lower() == _UPDATE else []
+    faults = left_out(tree, source, *_OF_CLIPS, "mode")
     tree.tag = _CLIP
-    return faults
+    return [*updates, *faults]
 
 
-def _loops(tree: Tree) -> bool:
-    """Removes what says whether a clip is played over and over, as states and blends are by default."""
-    wrap, loop = take(tree, "wrap-mode").lower(), take(tree, "loop").lower()
+def _update(tree: Tree, source: BlockSource) -> Fault:
+    """The fault of a blend that is to change the mixture of the one that plays."""
+    drop(tree, "mode")
+    return source.located(tree, PlaysOver())
+
+
+def loops(tree: Tree) -> bool:
+    """Return whether a clip is played over and over, as states and blends are by default."""
+    wrap, loop = (value_of(tree, name).lower() for name in ("wrap-mode", "loop"))
     if wrap or loop:
         return wrap == "loop" or loop == "true"
     return name_of(tree) != _ANIMATION and not set(OTHER_POINTS).intersection(tree.keys())

@@ -6,7 +6,7 @@ from reactive_realizer.bml.behaviors import Gesture
 from reactive_realizer.bml.extensions import Keyframe
 from reactive_realizer.bml.vocabulary import Mode
 
-from .reading import only, told
+from .reading import behaviors, only, read, told
 
 
 @pytest.mark.parametrize(
@@ -115,8 +115,38 @@ def test_a_clip_may_be_that_of_a_part_of_the_body() -> None:
 
 
 def test_what_clips_cannot_do_is_told() -> None:
-    (sentence,) = told('<blend name="step" mode="update" sbm:schedule-mode="Queued"/>')
-    assert sentence == "mode, sbm:schedule-mode of SmartBody has no effect on <blend> here"
+    (sentence,) = told('<blend name="step" sbm:schedule-mode="Queued" sbm:transition-length="1"/>')
+    assert sentence == "sbm:schedule-mode, sbm:transition-length of SmartBody has no effect on <blend> here"
+
+
+def test_an_update_of_a_blend_plays_over_it_and_says_once_what_changes_it() -> None:
+    update = '<blend mode="update" name="walk" sbm:schedule-mode="Now" sbm:wrap-mode="Loop" y="20"/>'
+    (sentence,) = told(update)
+    assert sentence.startswith("mode='update' names no behavior that it changes, so this blend plays over the one")
+    parsed = read(f"<act><bml>{update}</bml></act>")
+    assert parsed.block is not None
+    assert parsed.block.behaviors[0].parameters == {"loop": "true", "y": "20"}
+
+
+@pytest.mark.parametrize(
+    "first",
+    [
+        '<blend name="a" sbm:wrap-mode="Once"/>',
+        '<sbm:animation name="a"/>',
+        '<blend name="a" sbm:duration="3"/>',
+        '<states name="a" end="4"/>',
+    ],
+)
+def test_a_clip_that_is_queued_starts_when_the_one_before_it_ends(first: str) -> None:
+    clips = behaviors(f'{first}<blend name="b" sbm:wrap-mode="Once" sbm:schedule-mode="Queued" start="1"/>')
+    (queued,) = (clip for clip in clips if isinstance(clip, Keyframe) and clip.animation == "b")
+    (before,) = (clip.id for clip in clips if isinstance(clip, Keyframe) and clip.animation == "a")
+    assert str(queued.syncs["start"]) == f"{before}:end"
+
+
+def test_a_clip_that_is_queued_behind_a_loop_is_told() -> None:
+    (sentence,) = told('<blend name="a"/><blend name="b" sbm:schedule-mode="Queued"/>')
+    assert sentence == "sbm:schedule-mode of SmartBody has no effect on <blend> here"
 
 
 def test_an_animation_has_a_speed() -> None:

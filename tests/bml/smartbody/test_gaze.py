@@ -87,9 +87,16 @@ def test_a_gaze_without_a_target_fades_out_to_the_viewer() -> None:
     assert (gaze.target, str(gaze.syncs["ready"])) == ("viewer", "g:start+0.7")
 
 
+@pytest.mark.parametrize("joints", ["", 'sbm:joint-range="NECK EYES"', 'sbm:joint-range="EYES CHEST"'])
+def test_eyes_that_point_at_the_target_first_are_those_of_any_gaze(joints: str) -> None:
+    read, plain = gaze(f'sbm:priority-joint="EYES" {joints}'), gaze(joints)
+    assert (read.influence, read.parameters) == (plain.influence, plain.parameters)
+    assert gaze('sbm:priority-joint="neck" sbm:joint-range="NECK CHEST"').influence is Influence.SHOULDER
+
+
 def test_what_a_gaze_cannot_do_is_told_in_one_warning() -> None:
-    (sentence,) = told('<gaze target="x" sbm:priority-joint="EYES" sbm:fade-out="1" sbm:handle="h"/>')
-    assert sentence == "sbm:priority-joint, sbm:fade-out of SmartBody has no effect on <gaze> here"
+    (sentence,) = told('<gaze target="x" sbm:priority-joint="NECK" sbm:fade-out="1" sbm:handle="h"/>')
+    assert sentence == "sbm:fade-out, sbm:priority-joint of SmartBody has no effect on <gaze> here"
 
 
 def test_joints_that_no_gaze_has_are_told() -> None:
