@@ -155,6 +155,19 @@ async def test_a_clip_that_is_queued_starts_when_the_one_before_it_ends(open_sti
     )
 
 
+async def test_a_gaze_that_fades_out_is_on_its_target_until_then(open_still: OpenStill) -> None:
+    async with open_still() as pilot:
+        pilot.move("aside", (1.0, 1.6, 1.0))
+        pilot.perform(act('<gaze id="g" target="aside" start="0" end="4" sbm:fade-out="1.5"/>'))
+        await pilot.advance(5)
+        aside = np.abs(turns(pilot, "skullbase")[:, 2])
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("document1:g:relax") == pytest.approx(2.5)
+    assert aside[120] == pytest.approx(aside[75], abs=0.02)
+    assert 0.2 * aside[120] < aside[160] < 0.8 * aside[120]
+    assert aside[-1] < 0.05
+
+
 async def test_the_posture_of_a_body_may_be_the_first_frame_of_a_motion(open_still: OpenStill, tmp_path: Path) -> None:
     (tmp_path / "Brad@Idle02.skm").write_text(MOTION.replace("kt 0 fr 0 0 -1.5", "kt 0 fr 0 0 -0.9"))
     async with open_still(tmp_path) as pilot:

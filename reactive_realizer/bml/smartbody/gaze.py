@@ -71,16 +71,27 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
     rename(tree, "target-pos", "target")
     if "target" in tree.attrib:
         tree.set("target", target_named(tree.get("target", "")))
-    times = ("time-hint", "fade-in") if "target" in tree.attrib else ("fade-out",)  # back to the viewer
-    for name in times:
-        if time := take_number(tree, name, source, 0.0, _LONGEST):
-            tie(tree, "ready", "start", time)
+    _tie_times(tree, source)
     _limit_speed(tree, source)
     roll = take_number(tree, "roll", source, -_MOST_ROLL, _MOST_ROLL)
     if roll:
         set_parameter(tree, "roll", f"{roll:g}", source)
     drop(tree, "handle", "joint-smooth", "speed-smoothing")
     return left_out(tree, source)
+
+
+def _tie_times(tree: Tree, source: BlockSource) -> None:
+    """Ties the points of a gaze as its fades say.
+
+    A fade out takes the gaze back before its end or, without a target, to the viewer. Without an end, a gaze at a
+    target persists; SmartBody would fade it out while it comes.
+    """
+    aimed = "target" in tree.attrib
+    for name in ("time-hint", "fade-in") if aimed else ("fade-out",):
+        if time := take_number(tree, name, source, 0.0, _LONGEST):
+            tie(tree, "ready", "start", time)
+    if aimed and "end" in tree.attrib and (time := take_number(tree, "fade-out", source, 0.0, _LONGEST)):
+        tie(tree, "relax", "end", -time)
 
 
 def _choose_joints(tree: Tree, source: BlockSource) -> None:

@@ -87,6 +87,12 @@ def test_a_gaze_without_a_target_fades_out_to_the_viewer() -> None:
     assert (gaze.target, str(gaze.syncs["ready"])) == ("viewer", "g:start+0.7")
 
 
+def test_a_gaze_at_a_target_fades_out_before_its_end() -> None:
+    read = gaze('sbm:fade-out="0.7" end="4"')
+    assert {point: str(ref) for point, ref in read.syncs.items()} == {"end": "4", "relax": "g:end-0.7"}
+    assert str(gaze('sbm:fade-out="0.7" relax="2" end="4"').syncs["relax"]) == "2"
+
+
 @pytest.mark.parametrize("joints", ["", 'sbm:joint-range="NECK EYES"', 'sbm:joint-range="EYES CHEST"'])
 def test_eyes_that_point_at_the_target_first_are_those_of_any_gaze(joints: str) -> None:
     read, plain = gaze(f'sbm:priority-joint="EYES" {joints}'), gaze(joints)
