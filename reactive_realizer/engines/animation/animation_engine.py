@@ -1,13 +1,9 @@
 """The engine of body animation (thesis 8.7): gestures, head movements, gaze, posture, and idle animation."""
 
-import asyncio
-import logging
-from collections.abc import Awaitable, Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from functools import partial, reduce
-from operator import itemgetter
+from collections.abc import Awaitable, Collection, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from random import Random
 from types import MappingProxyType
-from typing import TypeVar
 
 from reactive_realizer.binding.gesture_binding import GestureBinding
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
@@ -24,7 +20,7 @@ from reactive_realizer.bml.behaviors import (
 )
 from reactive_realizer.bml.extensions import MOTIONS
 from reactive_realizer.bml.glance import Glance
-from reactive_realizer.bml.idle_change import MOSTS, IdleChange
+from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlGesture
 from reactive_realizer.bml.release import Release
@@ -32,13 +28,10 @@ from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.bml.weight_shift import WeightShift
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
-from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.humanoid import Dynamics, EyePose, Eyes
+from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
 from reactive_realizer.embodiment.inertialization import CARRIED
-from reactive_realizer.embodiment.joints import EYES, HEAD, ROOT, SIDES
-from reactive_realizer.embodiment.place import Place
-from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose, over
-from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, multiply
+from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES
+from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.context import EngineContext
 from reactive_realizer.engine.effects import EndUnit, ReportFall, Request, Warn
@@ -46,23 +39,20 @@ from reactive_realizer.engine.engine import DefaultEngine
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
-from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext, keys_of
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext
 from reactive_realizer.engines.animation.blinks import USUAL_RATE
 from reactive_realizer.engines.animation.expression.functions import plugin_functions
 from reactive_realizer.engines.animation.fade_out import DURATION as FADE_OUT
 from reactive_realizer.engines.animation.fade_out import (
     FadeOut,
+    FadeOuts,
     fade_out_duration,
-    in_stacking_order,
     moves_lower_body,
-    visible_part,
     with_reached_root,
 )
-from reactive_realizer.engines.animation.faults import NoIdle, TooMuchOfIdle, WeightOnNoFoot
-from reactive_realizer.engines.animation.gaze.eye_controller import EyeController
-from reactive_realizer.engines.animation.gaze.eyes import lid_weights
+from reactive_realizer.engines.animation.failure_isolation import FailureIsolation
+from reactive_realizer.engines.animation.gaze.eye_poser import EyePoser
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
-from reactive_realizer.engines.animation.gaze.viewer import VIEWER
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
 from reactive_realizer.engines.animation.idle_movements import standing_degree
@@ -72,37 +62,34 @@ from reactive_realizer.engines.animation.leaning import Leaning
 from reactive_realizer.engines.animation.lexicon import binding_lexicon
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_maker import MakerContext
+from reactive_realizer.engines.animation.motion_planner import MotionDrafts, MotionPlanner
 from reactive_realizer.engines.animation.motion_unit import (
     AMOUNT_RANGE,
     EXPRESSIVITY_RANGES,
-    GazeGoal,
     MotionUnit,
     Resource,
 )
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
-from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionMotionUnit, LocomotionUnit
-from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
+from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionUnit
+from reactive_realizer.engines.animation.motions.posture import temporary_bodies
 from reactive_realizer.engines.animation.motions.release import ReleaseMotionUnit
-from reactive_realizer.engines.animation.motions.transition import TransitionMotionUnit, TransitionUnit
 from reactive_realizer.engines.animation.persistent_poses import PersistentPoses
 from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
 from reactive_realizer.engines.animation.posture.foot_planting import FootPlanting
-from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
+from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
+from reactive_realizer.engines.animation.returning_hands import ReturningHands
 from reactive_realizer.engines.animation.trunk_following import TrunkFollowing
 from reactive_realizer.engines.animation.waiting_arms import WaitingArms
 from reactive_realizer.engines.animation.walk import Walk
 from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.engines.animation.walking.step_turn import StepTurns
 from reactive_realizer.engines.animation.weight_shifts import WeightShiftUnit
-from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.planunit.parameter import Range
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.reactive.graph import Graph
-
-T = TypeVar("T")
 
 _HEAD = frozenset(HEAD)
 
@@ -147,7 +134,13 @@ class AnimationEngine(DefaultEngine):
         self._world = context.world
         binding = GestureBinding.read(*context.bindings["gesture"])
         library = PostureLibrary(context.humanoid.avatar.skeleton, context.asset, binding.rest_poses)
-        self._rest = RestPosture(library, self._expected, self._possible_bodies, context.humanoid.clearance)
+        self._drafts = MotionDrafts(lambda: self.player.units, lambda: self.player.playing)
+        self._rest = RestPosture(
+            library,
+            lambda: self._drafts.posture_after(self._rest.posture),
+            self._drafts.possible_bodies,
+            context.humanoid.clearance,
+        )
         self._base_layer: Layer | None = None
         self._humanoid.rest(self._rest.body)
         functions = plugin_functions(context.functions)
@@ -159,7 +152,7 @@ class AnimationEngine(DefaultEngine):
             self._rest,
             functions,
             context.character,
-            self._expected_place,
+            lambda: self._drafts.place_after(self._humanoid.place),
             context.expressivity,
         )
         self._library = MotionLibrary(binding, maker_context, context.motions)
@@ -177,33 +170,31 @@ class AnimationEngine(DefaultEngine):
         self._acting: dict[AnimationUnit, PhysicalController] = {}
         self._step_turns = StepTurns()
         self._persistent = PersistentPoses()
-        self._eye_controller = EyeController(self._idle.blink) if self._idle else EyeController()
-        self._fade_outs: list[FadeOut] = []
-        # Layers of ended gestures, as the times of their points imply, whether frames are made or not.
-        self._left_hands: list[FadeOut] = []
-        # Bodies in postures that were cut since the last plan; the figure may still be there.
-        self._interrupted_bodies: list[Body] = []
-        # Units of the block that is being planned, by behavior; they are not in the plan yet.
-        self._drafts: dict[str, AnimationUnit] = {}
+        self._isolated = FailureIsolation(self.name)
+        self._eye_poser = EyePoser(
+            context.humanoid, context.world, self._idle, lambda: self._persistent.motions, self._isolated
+        )
+        self._fade_outs = FadeOuts()
+        self._returning_hands = ReturningHands(self._rest)
         # Notes of new units, not reported yet.
         self._notes: list[Warn] = []
         self._history = MotionHistory(lambda: self._humanoid.body)
-        self._isolated = FailureIsolation(self.name)
-        self._predictor = AnimationPredictor(
-            context.humanoid.avatar.skeleton, self._base, lambda: self.player.units, self._history
-        )
         # Ends of holds, because a behavior releases their hands.
         self._released: list[EndUnit] = []
-        self._motion_context = self._new_motion_context(context.graph)
+        predictor = AnimationPredictor(
+            context.humanoid.avatar.skeleton, self._base, lambda: self.player.units, self._history
+        )
+        motion_context = self._new_motion_context(predictor, context.graph)
+        self._planner = MotionPlanner(self._library, self._idle, self._rest, self._drafts, predictor, motion_context)
         self.extensions = self._library.extensions
 
-    def _new_motion_context(self, graph: Graph) -> MotionContext:
+    def _new_motion_context(self, predictor: AnimationPredictor, graph: Graph) -> MotionContext:
         return MotionContext(
             lambda: self._humanoid.body,
             lambda: self._humanoid.shown,
             lambda: self._rest.body,
-            self._predictor.state_before,
-            self._hands,
+            predictor.state_before,
+            lambda now: self._returning_hands.body(self._playing(), now),
             self._note_passed,
             self._fade_out,
             self._claimed,
@@ -226,18 +217,11 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: there is no motion for it, or no such target.
         """
-        if isinstance(behavior, IdleChange | WeightShift):
-            return self._idle_unit(BlockKey("", ""), behavior).timing.points
-        self._library.refresh()
-        if self._library.preloads(behavior):
-            return None
-        return tuple(keys_of(behavior, self._library.candidates(behavior).planned.motion))
+        return self._planner.check(behavior)
 
     def prepare(self, behavior: Behavior) -> Awaitable[object] | None:
         """Read long files in another thread."""
-        self._drafts.clear()  # they may be left from a block that failed while it was planned
-        works = self._library.preloads(behavior)
-        return asyncio.to_thread(lambda: [work() for work in works]) if works else None
+        return self._planner.prepare(behavior)
 
     def plan(self, block: BlockKey, behavior: Behavior, prepared: object) -> PlanUnit:
         """Plan the motion that the binding has for the behavior.
@@ -245,97 +229,30 @@ class AnimationEngine(DefaultEngine):
         Raises:
             RealizerError: there is no motion for it, or no such target.
         """
-        if isinstance(behavior, IdleChange | WeightShift):
-            return self._idle_unit(block, behavior)
-        while self._drafts and not _precedes(next(reversed(self._drafts.values())), block, behavior):
-            self._drafts.popitem()
-        if not self._drafts:
-            self._library.refresh()
-        unit = self._drafts[behavior.id] = self._unit(block, behavior)
-        return unit
+        return self._planner.plan(block, behavior)
 
     def add(self, unit: PlanUnit) -> None:
         """Add a planned unit, and forget the drafts."""
-        self._drafts.clear()
-        self._interrupted_bodies.clear()
+        self._drafts.enter_plan()
         if isinstance(unit, AnimationUnit):
             self._notes += [Warn(unit, note) for note in unit.notes]
         super().add(unit)
-
-    def _expected(self) -> BodyPosture:
-        planned = (
-            unit.motion for unit in (*self.player.units, *self._drafts.values()) if isinstance(unit, AnimationUnit)
-        )
-        return posture_after(self._rest.posture, planned)
-
-    def _expected_place(self) -> Place:
-        planned = (
-            unit.motion for unit in (*self.player.units, *self._drafts.values()) if isinstance(unit, AnimationUnit)
-        )
-        places = [motion.place for motion in planned if isinstance(motion, LocomotionMotionUnit)]
-        return places[-1] if places else self._humanoid.place
-
-    def _possible_bodies(self) -> tuple[Body, ...]:
-        planned = (*self.player.playing, *self._drafts.values())
-        bodies = temporary_bodies(unit.motion for unit in planned if isinstance(unit, AnimationUnit))
-        return tuple(dict.fromkeys((*bodies, *self._interrupted_bodies)))
-
-    def _idle_unit(self, block: BlockKey, behavior: IdleChange | WeightShift) -> IdleChangeUnit | WeightShiftUnit:
-        """Plan a change of idle animation, or a movement of it.
-
-        Raises:
-            RealizerError: "no-idle": the figure has none; "too-much-of-idle": the value is above its limit;
-                "weight-on-no-foot": the figure does not stand.
-        """
-        if self._idle is None:
-            raise RealizerError(NoIdle())
-        if isinstance(behavior, WeightShift):
-            stance = self._expected().stance
-            if stance is not StanceType.STANDING:
-                raise RealizerError(WeightOnNoFoot(stance=stance))
-            return WeightShiftUnit(block, behavior, self._idle.shifts)
-        most = MOSTS[behavior.parameter]
-        if behavior.value > most:
-            raise RealizerError(TooMuchOfIdle(parameter=behavior.parameter, value=behavior.value, most=most))
-        goal = self._idle.relative(behavior.parameter, behavior.value)
-        return IdleChangeUnit(block, behavior, self._idle.courses[behavior.parameter], goal)
-
-    def _unit(self, block: BlockKey, behavior: Behavior) -> AnimationUnit:
-        candidates = self._library.candidates(behavior)
-        if isinstance(candidates.planned.motion, TransitionMotionUnit):
-            return TransitionUnit(block, behavior, candidates, self._motion_context, self._predictor.state_after)
-        if isinstance(candidates.planned.motion, LocomotionMotionUnit):
-            return LocomotionUnit(block, behavior, candidates, self._motion_context)
-        unit = AnimationUnit(block, behavior, candidates, self._motion_context)
-        previous = self._continued(unit)
-        if previous is not None:
-            unit.continue_from(previous.relaxed_body(GlobalTime(0.0), self._rest.body))
-        return unit
-
-    def _continued(self, unit: AnimationUnit) -> AnimationUnit | None:
-        """Return the gesture of the same block that a new unit follows at once with the same hand, if there is one."""
-        start = unit.behavior.syncs.get("start")
-        if start is None or start.block not in (None, unit.block.block) or start.sync not in ("relax", "end"):
-            return None
-        draft = self._drafts.get(start.behavior or "")
-        follows = draft is not None and start.offset < FADE_OUT and draft.resources & unit.resources
-        return draft if follows else None
 
     def reset(self, time: GlobalTime) -> None:
         """Return to the initial posture and gaze, and to usual idle animation."""
         if self._idle is not None:
             self._idle.reset(time)
         self._release(self._persistent.clear(), time)
-        self._eye_controller.note_change(time)
+        self._eye_poser.note_change(time)
         base, body = self._base(), self._rest.body
         if self._rest.reset():
-            self._interrupted_bodies.append(body)
-            self._start_fade_out(FadeOut(base, time, fade_out_duration(base, self._roots())))
+            self._drafts.note_interrupted([body])
+            self._fade_outs.start(FadeOut(base, time, fade_out_duration(base, self._roots())))
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
         """Return all layers: rest posture, idle animation, persistent poses, fading and playing motions, feet."""
         self._history.start_frame(tick.time)
-        self._fade_outs = [fade_out for fade_out in self._fade_outs if not fade_out.finished(tick.time)]
+        self._fade_outs.start_frame(tick.time)
         playing = self._playing()
         self._acting = self._controlling(playing)
         self._humanoid.aim(_pointing_arms(playing))
@@ -404,21 +321,17 @@ class AnimationEngine(DefaultEngine):
         for unit in self.player.playing:
             if isinstance(unit, IdleChangeUnit | WeightShiftUnit):
                 unit.follow(now)
-        busy = _moved_arms((*(unit.motion for unit in playing), *self._persistent.motions))
-        return self._idle_part(lambda idle: (checked(idle.layer(now, standing, busy)),), ())
-
-    def _idle_part(self, show: Callable[[Idle], T], fallback: T) -> T:
-        """Return a part of idle animation, or a fallback if the figure has none."""
         idle = self._idle
-        return fallback if idle is None else self._isolated("idle animation", lambda: show(idle), fallback)
+        if idle is None:
+            return ()
+        busy = _moved_arms((*(unit.motion for unit in playing), *self._persistent.motions))
+        return self._isolated("idle animation", lambda: (checked(idle.layer(now, standing, busy)),), ())
 
     def _stacked(self, now: GlobalTime) -> list[Layer]:
         shown = self.player.show(AnimationUnit, lambda unit: (unit, unit.layer(now)), now)
-        alone = [layer for _, layer in shown]
-        if not self._fade_outs:
-            return alone
         playing = [(unit.height, layer) for unit, layer in shown]
-        return self._isolated("fading motion", lambda: in_stacking_order(self._fade_outs, playing, now), alone)
+        alone = [layer for _, layer in shown]
+        return self._isolated("fading motion", lambda: self._fade_outs.with_playing(playing, now), alone)
 
     def _playing(self) -> list[AnimationUnit]:
         """Return the units that play, in order of planning."""
@@ -490,20 +403,7 @@ class AnimationEngine(DefaultEngine):
 
     def eyes(self, tick: Tick) -> Eyes:
         """Pose the eyes for all gazes, from the head as shown; the lids follow."""
-        playing = self._playing()
-        gazes, aside = list(self._gazes(playing)), _aside(playing)
-        return lambda body: self._look(tick.time, gazes, aside, body)
-
-    def _look(self, now: GlobalTime, gazes: Sequence[GazeGoal], aside: Quat, body: Body) -> EyePose:
-        directed = any(gaze.eyes >= 1.0 and all(eye in gaze.directed for eye in EYES) for gaze in gazes)
-        resting: Mapping[str, Quat] = {} if directed else self._idle_part(lambda idle: idle.eyes(now), {})
-        camera = None if directed or self._idle is None else self._world.position(VIEWER)
-        viewer = None if camera is None else self._humanoid.to_own_frame(camera)
-        turns = self._isolated(
-            "gaze", lambda: self._eye_controller.eyes(now, gazes, body, resting, viewer, aside), resting
-        )
-        blinks: Mapping[str, float] = self._idle_part(lambda idle: idle.blinks(now), {})
-        return EyePose(turns, lid_weights(turns), blinks)
+        return self._eye_poser.eyes(tick.time, self._playing())
 
     def warnings(self) -> tuple[Warn | ReportFall, ...]:
         """Return warnings about new units, and about playing units; and a fall."""
@@ -521,27 +421,15 @@ class AnimationEngine(DefaultEngine):
             units = [unit for unit, controller in controlling.items() if ROOT in controller.joints]
             yield from (ReportFall(unit, self._humanoid.time) for unit in units[-1:])
 
-    def _gazes(self, playing: Iterable[AnimationUnit]) -> Iterator[GazeGoal]:
-        """Yield the active gaze goals: persistent ones, then playing ones, the latest last."""
-        lasting = (motion.gaze(1.0) for motion in self._persistent.motions)
-        gazing = [(height(unit), gaze) for unit in playing if (gaze := unit.motion.gaze(unit.phase)) is not None]
-        yield from (gaze for gaze in lasting if gaze is not None)
-        yield from (gaze for _, gaze in sorted(gazing, key=itemgetter(0)))
-
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
         if isinstance(unit.motion, ReleaseMotionUnit) and sync == "start":
             holding = (other for other in self._playing() if other.holds_on and other.resources & unit.motion.released)
             self._released += [EndUnit(other, time) for other in holding]
-        self._note_gaze_change(unit, time)
+        self._eye_poser.note_change_by(unit, time)
         self._late_hands.note(unit, sync, time)
         if sync == "relax" and unit.motion.kind is LayerKind.GESTURE:
             others = (other for other in self.player.units if isinstance(other, AnimationUnit))
             self._waiting_arms.note_relax(unit, others, time)
-
-    def _note_gaze_change(self, unit: AnimationUnit, time: GlobalTime) -> None:
-        gaze = unit.motion.gaze(0.0)
-        if (gaze is not None and gaze.eyes > 0.0) or unit.motion.glance(0.0) is not None:
-            self._eye_controller.note_change(time)
 
     def _claimed(self, unit: AnimationUnit) -> frozenset[str]:
         """Return the resources that are better left to others.
@@ -556,47 +444,27 @@ class AnimationEngine(DefaultEngine):
         holds = (other.resources for other in self._playing() if other.holds_on and other is not unit)
         return frozenset[str]().union(*claims, *holds)
 
-    def _hands(self, now: GlobalTime) -> Body | None:
-        rest = hands = self._rest.body
-        self._left_hands = [left for left in self._left_hands if not left.finished(now)]
-        playing = self._playing()
-        for unit in playing:
-            if unit.motion.kind is LayerKind.POSTURE:
-                hands = over(hands, unit.timed_layer(now, rest))
-        for left in self._left_hands:
-            hands = over(hands, left.at(now))
-        for unit in playing:
-            if unit.motion.kind is LayerKind.GESTURE and unit.subsiding(now) and not unit.accompanies:
-                hands = over(hands, unit.retraction_layer(now, rest))
-        return None if hands is rest else hands
-
-    def _note_hands(self, unit: AnimationUnit, time: GlobalTime) -> None:
-        """Note where a gesture leaves the hands; one that accompanies others must not change the times of the next."""
-        if unit.motion.kind is LayerKind.GESTURE and unit.shortest[0] > 0.0 and not unit.accompanies:
-            left = FadeOut(unit.final_layer(time, self._rest.body), time)
-            self._left_hands = [each for each in (*self._left_hands, left) if not each.finished(time)]
-
     def _fade_out(self, unit: AnimationUnit, time: GlobalTime) -> None:
         """Take over the joints of a unit that has ended. A pose that persists lies below all others from now on."""
-        self._note_gaze_change(unit, time)
-        self._note_hands(unit, time)
+        self._eye_poser.note_change_by(unit, time)
+        self._returning_hands.note_end(unit, time)
         done = unit.state is UnitState.DONE and not unit.was_cut("end")
         stays = done and unit.motion.persists_as is not None
         if not done:
-            self._interrupted_bodies += temporary_bodies([unit.motion])
+            self._drafts.note_interrupted(temporary_bodies([unit.motion]))
         base, layer = self._base(), with_reached_root(unit.shown, self._humanoid.shown.root)
         duration = fade_out_duration(layer, self._roots())
         if stays and unit.motion.becomes_rest():
-            self._fade_outs = [visible_part(fade_out, layer, unit.height) for fade_out in self._fade_outs]
+            self._fade_outs.hide(layer, unit.height)
             duration = max(duration, fade_out_duration(base, self._roots()))
-            self._start_fade_out(FadeOut(base, time, duration, under=layer.weight))
+            self._fade_outs.start(FadeOut(base, time, duration, under=layer.weight))
         elif stays:
             self._release(self._persistent.keep(unit.motion), time)
         waiting = self._waiting_arms.note_end(unit, time)
         if moves_lower_body(layer):
             speed = unit.weight_speed(time)
             since = unit.shown_at if speed else time
-            self._start_fade_out(FadeOut(layer, since, duration, unit.height, speed))
+            self._fade_outs.start(FadeOut(layer, since, duration, unit.height, speed))
             self._humanoid.switch(layer.rotations, GlobalTime(time + CARRIED))
         else:
             self._release(layer.rotations.keys() - waiting, time)
@@ -604,12 +472,6 @@ class AnimationEngine(DefaultEngine):
     def _release(self, joints: Collection[str], time: GlobalTime) -> None:
         """Let joints go over to what is below the motion that had them."""
         self._humanoid.switch(joints, GlobalTime(time + FADE_OUT))
-
-    def _start_fade_out(self, fade_out: FadeOut) -> None:
-        # A former rest posture is below everything else.
-        lowest = fade_out.layer.kind is LayerKind.BASE
-        fade_outs = (fade_out, *self._fade_outs) if lowest else (*self._fade_outs, fade_out)
-        self._fade_outs = [other for other in fade_outs if not other.finished(fade_out.since)]
 
     def _roots(self) -> Iterator[Vec3]:
         """Yield the displacements of HumanoidRoot at rest and in playing motions."""
@@ -622,12 +484,6 @@ class AnimationEngine(DefaultEngine):
         return self._base_layer
 
 
-def _aside(playing: Iterable[AnimationUnit]) -> Quat:
-    """Return the turn of the eyes from where they look, in the axes of the head: that of all glances."""
-    glances = (unit.motion.glance(unit.phase) for unit in playing)
-    return reduce(multiply, (glance for glance in glances if glance is not None), IDENTITY)
-
-
 def _pointing_arms(playing: Iterable[AnimationUnit]) -> frozenset[str]:
     """Return the sides of the arms that point, or are about to."""
     pointing = [unit for unit in playing if isinstance(unit.behavior, Pointing) and unit.phase < unit.keys["relax"]]
@@ -638,35 +494,3 @@ def _moved_arms(motions: Iterable[MotionUnit]) -> frozenset[str]:
     """Return the sides of the arms that motions above postures move."""
     moving = [motion for motion in motions if motion.kind in _CLAIMING]
     return frozenset(side for motion in moving for side in SIDES if f"{side}_elbow" in motion.joints)
-
-
-def _precedes(unit: AnimationUnit, block: BlockKey, behavior: Behavior) -> bool:
-    return unit.block == block and unit.behavior.order < behavior.order
-
-
-_log = logging.getLogger(__name__)
-
-
-class FailureIsolation:
-    """Isolates failures outside of units, such as in idle animation: the other parts continue to move."""
-
-    def __init__(self, figure: str) -> None:
-        """Isolate the failures of a figure, given by name for messages."""
-        self._figure = figure
-        self._logged: set[str] = set()
-
-    def __call__(self, part: str, show: Callable[[], T], fallback: T) -> T:
-        """Return a part of the figure's motion, or a fallback in frames in which it fails. The first failure is logged.
-
-        Args:
-            part: its name, for the log.
-            show: returns the part.
-            fallback: returned if that fails.
-        """
-        try:
-            return show()
-        except Exception:
-            if part not in self._logged:
-                self._logged.add(part)
-                _log.exception("%s: %s failed and is left out", self._figure, part)
-            return fallback

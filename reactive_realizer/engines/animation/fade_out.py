@@ -72,18 +72,42 @@ class FadeOut:
         return replace(self.layer, weight=min(1.0, max(0.0, weight + further)))
 
 
-def in_stacking_order(
-    fade_outs: Iterable[FadeOut], playing: Iterable[tuple[tuple[float, float], Layer]], now: GlobalTime
-) -> list[Layer]:
-    """Merge fading and playing layers, lowest first.
+class FadeOuts:
+    """The layers of a figure that fade out."""
 
-    Args:
-        fade_outs: that are not finished.
-        playing: layers with their heights, in order.
-        now: time of the frame, s.
-    """
-    heights = [*((fade_out.height, fade_out.at(now)) for fade_out in fade_outs), *playing]
-    return [layer for _, layer in sorted(heights, key=itemgetter(0))]
+    def __init__(self) -> None:
+        self._layers: list[FadeOut] = []
+
+    def start(self, fade_out: FadeOut) -> None:
+        """Have another layer fade out; a former rest posture is below everything else."""
+        lowest = fade_out.layer.kind is LayerKind.BASE
+        layers = (fade_out, *self._layers) if lowest else (*self._layers, fade_out)
+        self._layers = [other for other in layers if not other.finished(fade_out.since)]
+
+    def start_frame(self, now: GlobalTime) -> None:
+        """Drop what is gone."""
+        self._layers = [layer for layer in self._layers if not layer.finished(now)]
+
+    def hide(self, layer: Layer, height: tuple[float, float]) -> None:
+        """Drop what a posture that stays hides.
+
+        Args:
+            layer: the posture, as shown last.
+            height: its stacking position.
+        """
+        self._layers = [_visible_part(fade_out, layer, height) for fade_out in self._layers]
+
+    def with_playing(self, playing: Iterable[tuple[tuple[float, float], Layer]], now: GlobalTime) -> list[Layer]:
+        """Merge fading and playing layers, lowest first.
+
+        Args:
+            playing: layers with their heights, in order.
+            now: time of the frame, s.
+        """
+        if not self._layers:
+            return [layer for _, layer in playing]
+        heights = [*((fade_out.height, fade_out.at(now)) for fade_out in self._layers), *playing]
+        return [layer for _, layer in sorted(heights, key=itemgetter(0))]
 
 
 def moves_lower_body(layer: Layer) -> bool:
@@ -103,23 +127,6 @@ def with_reached_root(layer: Layer, root: Vec3) -> Layer:
     return replace(layer, root=root) if leads and outrun else layer
 
 
-def visible_part(fade_out: FadeOut, layer: Layer, height: tuple[float, float]) -> FadeOut:
-    """Return the part of a fading layer that a posture which stays does not hide.
-
-    Args:
-        fade_out: of the layer.
-        layer: the posture, as shown last.
-        height: its stacking position.
-    """
-    leaves = fade_out.layer
-    below = (leaves.kind, fade_out.height) < (layer.kind, height)
-    if layer.weight < _WHOLE or not below:
-        return fade_out
-    rotations = {joint: turn for joint, turn in leaves.rotations.items() if joint not in layer.rotations}
-    root = leaves.root if layer.root is None else None
-    return replace(fade_out, layer=replace(leaves, rotations=rotations, root=root))
-
-
 def fade_out_duration(layer: Layer, roots: Iterable[Vec3]) -> float:
     """Return the time in which a layer fades out, s: longer if the whole figure moves.
 
@@ -130,3 +137,13 @@ def fade_out_duration(layer: Layer, roots: Iterable[Vec3]) -> float:
     place = layer.root
     moved = 0.0 if place is None else layer.weight * max(distance(place, root) for root in roots)
     return max(DURATION, min(_DURATION_PER_METER * moved, _LONGEST), _MIN_DURATION_PER_METER * moved)
+
+
+def _visible_part(fade_out: FadeOut, layer: Layer, height: tuple[float, float]) -> FadeOut:
+    leaves = fade_out.layer
+    below = (leaves.kind, fade_out.height) < (layer.kind, height)
+    if layer.weight < _WHOLE or not below:
+        return fade_out
+    rotations = {joint: turn for joint, turn in leaves.rotations.items() if joint not in layer.rotations}
+    root = leaves.root if layer.root is None else None
+    return replace(fade_out, layer=replace(leaves, rotations=rotations, root=root))
