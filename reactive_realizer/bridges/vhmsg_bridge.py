@@ -64,7 +64,7 @@ class VhmsgBridge:
     ) -> None:
         self._form = form
         self._unit = unit
-        self._pawns: dict[str, tuple[float, ...]] = {}
+        self._pawns: dict[str, Pawn] = {}
         self._characters = characters
         self._send = send
         self._played: dict[str, _Played] = {}
@@ -103,8 +103,8 @@ class VhmsgBridge:
         return {"type": "bml", "xml": text, "ref": ids[0]}
 
     def _place(self, pawn: Pawn) -> Request:
-        self._pawns[pawn.name] = place = pawn.placed(self._pawns.get(pawn.name, (0.0, 0.0, 0.0)))
-        return {"type": "world", "set": {pawn.name: [self._unit * value for value in place]}}
+        self._pawns[pawn.name] = placed = pawn.after(self._pawns.get(pawn.name))
+        return {"type": "world", "set": {pawn.name: placed.place(self._unit)}}
 
     def report(self, message: Mapping[str, Any]) -> None:
         """Take a message of the realizer, and report it."""

@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from typing import Final, NamedTuple
 
 from reactive_realizer.client.vh_message import VhMessage
+from reactive_realizer.embodiment.quaternion import from_euler
 
 _COMMAND: Final = "sbm"
 _AXES: Final = "xyz"
+_ANGLES: Final = "hpr"
+"""Heading about y, pitch about x and roll about z, degrees; the roll is first, and the heading last."""
 _INIT: Final = re.compile(r"pawn\s+(\S+)\s+init\b(.*)", re.DOTALL)
 _SET: Final = re.compile(r"set\s+pawn\s+(\S+)\s+world[_-]offset\s(.*)", re.DOTALL)
 _PLACE: Final = re.compile(r"\bloc\s+(\S+)\s+(\S+)\s+(\S+)")
@@ -19,7 +22,8 @@ class Pawn(NamedTuple):
 
     Attributes:
         name: of it.
-        coordinates: by axis, those that the command gives, in the unit of the toolkit.
+        coordinates: those that the command gives: by axis (x, y, z), in the unit of the toolkit, and angles (h, p, r),
+            degrees.
     """
 
     name: str
@@ -27,7 +31,7 @@ class Pawn(NamedTuple):
 
     @classmethod
     def of(cls, message: VhMessage) -> "Pawn | None":
-        """The pawn of a command: ``pawn NAME init loc X Y Z``, or ``set pawn NAME world_offset x X y Y z Z``.
+        """The pawn of a command: ``pawn NAME init loc X Y Z``, or ``set pawn NAME world_offset x X h H``.
 
         Raises:
             ValueError: a coordinate is not a finite number.
@@ -40,12 +44,24 @@ class Pawn(NamedTuple):
         if moved := _SET.match(message.argument):
             words = moved[2].split()
             given = zip(words[::2], words[1::2], strict=False)
-            return cls(moved[1], {axis: _finite(value) for axis, value in given if axis in _AXES})
+            return cls(moved[1], {axis: _finite(value) for axis, value in given if axis in _AXES + _ANGLES})
         return None
 
-    def placed(self, before: tuple[float, ...]) -> tuple[float, ...]:
-        """Where it is, (3,), if it was somewhere before: the coordinates that are not given stay."""
-        return tuple(self.coordinates.get(axis, old) for axis, old in zip(_AXES, before, strict=True))
+    def after(self, before: "Pawn | None") -> "Pawn":
+        """The pawn if it was somewhere before: coordinates that are not given stay."""
+        return self if before is None else self._replace(coordinates={**before.coordinates, **self.coordinates})
+
+    def place(self, unit: float) -> dict[str, list[float]] | list[float]:
+        """Where it is, as the protocol tells it: its position, with its orientation if any angle was given.
+
+        Args:
+            unit: of its coordinates, m.
+        """
+        position = [unit * self.coordinates.get(axis, 0.0) for axis in _AXES]
+        if not self.coordinates.keys() & set(_ANGLES):
+            return position
+        heading, pitch, roll = (math.radians(self.coordinates.get(angle, 0.0)) for angle in _ANGLES)
+        return {"position": position, "orientation": list(from_euler(pitch, heading, roll))}
 
 
 def _finite(text: str) -> float:

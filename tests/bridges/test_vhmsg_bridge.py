@@ -1,6 +1,7 @@
 """The bridge to the Virtual Human Toolkit: which reports follow from what the realizer says."""
 
 import logging
+import math
 
 import pytest
 
@@ -124,12 +125,31 @@ def test_a_request_without_one_of_its_parts_is_logged(toolkit: Toolkit, caplog: 
     [
         (["pawn cup init loc 1 2 3 geom sphere"], [1.0, 2.0, 3.0]),
         (["pawn cup init"], [0.0, 0.0, 0.0]),
-        (["set pawn cup world_offset x 1 y -2 z 3.5 h 90"], [1.0, -2.0, 3.5]),
+        (["set pawn cup world_offset x 1 y -2 z 3.5"], [1.0, -2.0, 3.5]),
         (["pawn cup init loc 1 2 3", "set pawn cup world-offset y 5"], [1.0, 5.0, 3.0]),
     ],
 )
 def test_a_pawn_that_is_placed_is_a_target(toolkit: Toolkit, commands: list[str], place: list[float]) -> None:
     *_, last = [toolkit.bridge.take(VhMessage("sbm", command)) for command in commands]
+    assert last == {"type": "world", "set": {"cup": place}}
+
+
+@pytest.mark.parametrize(
+    ("commands", "orientation"),
+    [
+        (["h 90"], [math.sqrt(0.5), 0, math.sqrt(0.5), 0]),
+        (["p 90"], [math.sqrt(0.5), math.sqrt(0.5), 0, 0]),
+        (["r 90"], [math.sqrt(0.5), 0, 0, math.sqrt(0.5)]),
+        (["h 90", "p 90"], [0.5, 0.5, 0.5, -0.5]),
+        (["h 90", "h 0"], [1, 0, 0, 0]),
+    ],
+)
+def test_the_angles_of_a_pawn_are_its_orientation(
+    toolkit: Toolkit, commands: list[str], orientation: list[float]
+) -> None:
+    placed = [VhMessage("sbm", f"set pawn cup world_offset x 1 {command}") for command in commands]
+    *_, last = [toolkit.bridge.take(message) for message in placed]
+    place = {"position": [1.0, 0.0, 0.0], "orientation": pytest.approx(orientation, abs=1e-9)}
     assert last == {"type": "world", "set": {"cup": place}}
 
 
