@@ -1,6 +1,7 @@
 """MURML: where hands are and point in the frames, at which times, what faces do, and what plays of wrong input."""
 
 import math
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -256,6 +257,53 @@ async def test_key_frames_turn_joints_by_roll_pitch_and_yaw_at_their_times(open_
         assert (time(pilot, "ready"), time(pilot, "strokeEnd"), time(pilot, "relax")) == pytest.approx((0.6, 1.2, 1.2))
         assert distance(wrist(at(pilot, 2.9), "l"), wrist(at(pilot, 0.0), "l")) < 0.01
         assert pilot.feedback.warnings == []
+
+
+def raised_aside(more: str, attributes: str = "") -> str:
+    """Key frames that turn the left shoulder by 30 degrees about the axis ahead, from 0.6 to 1.2 s."""
+    frames = "".join(
+        f'<frame ftime="{ftime}"><posture>Humanoid (l_shoulder 3 30 0 0)</posture></frame>' for ftime in (0.6, 1.2)
+    )
+    inside = f"<dynamic><keyframing {attributes}><phase>{frames}</phase></keyframing></dynamic>"
+    murml = f'<murmlgesture xmlns="{MURML}" id="g"><murml-description>{inside}</murml-description></murmlgesture>'
+    return f'<bml xmlns="{BML}" id="b">{murml}{more}</bml>'
+
+
+LIFTED = """<rr:keyPoses xmlns:rr="urn:reactive-realizer:1" id="k" group="LEFT_ARM" start="0">
+  <rr:keyPose time="0.3" hold="3"><rr:position target="0.3 0.2 0.3" joint="l_wrist"/></rr:keyPose>
+</rr:keyPoses>"""
+
+
+@pytest.mark.parametrize(("attributes", "ready"), [("", 0.6), ('dont_insert_startframe="true"', 0.0)])
+async def test_superposed_key_frames_are_added_to_what_the_joints_do(
+    open_still: OpenStill, attributes: str, ready: float
+) -> None:
+    turned = dict[str, list[Body]]()
+    for name, mode in (("none", ""), ("added", f'applymode="superpose" {attributes}')):
+        async with open_still() as pilot:
+            text = raised_aside(LIFTED, mode)
+            pilot.perform(text if mode else f'<bml xmlns="{BML}" id="b">{LIFTED}</bml>')
+            await pilot.advance(3.0)
+            turned[name] = pilot.bodies()
+            assert pilot.feedback.warnings == []
+            if mode:
+                assert (time(pilot, "ready"), time(pilot, "relax")) == pytest.approx((ready, 1.2))
+    ways = [
+        math.degrees(angle(difference(before.rotation("l_shoulder"), after.rotation("l_shoulder"))))
+        for before, after in zip(turned["none"], turned["added"], strict=True)
+    ]
+    assert ways[round(0.9 * FRAMES)] == pytest.approx(30.0, abs=0.5)
+    assert max(ways) < 30.5
+    assert max(abs(after - before) for before, after in pairwise(ways)) < 8.0, "without a jump"
+    assert (ways[0], ways[-1]) == pytest.approx((0.0, 0.0), abs=0.1)
+
+
+async def test_other_key_frames_replace_what_the_joints_do(open_still: OpenStill) -> None:
+    async with open_still() as pilot:
+        pilot.perform(raised_aside(LIFTED))
+        await pilot.advance(2.0)
+        aside = from_axis_angle((0.0, 0.0, 1.0), math.radians(30.0))
+        assert angle(difference(at(pilot, 0.9).rotation("l_shoulder"), aside)) < 0.02
 
 
 FACE = (

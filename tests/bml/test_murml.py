@@ -307,12 +307,18 @@ def test_what_cannot_be_read_is_named_with_its_place_and_the_rest_plays(wrong: s
     assert problem.id == "b:x"
 
 
+def test_superposed_frames_of_a_face_replace_others_with_a_note() -> None:
+    face, problems = read(FRAMES.format('applymode="superpose"', f'<frame ftime="1">{POSTURE}</frame>'), "murmlface")
+    assert isinstance(face, MurmlFace)
+    (problem,) = problems
+    assert problem.fault.sentence.startswith("applymode='superpose' has no effect: frames of a face")
+
+
 @pytest.mark.parametrize(
     ("attributes", "wrong", "sentence"),
     [
         ('easescale="steep"', "", "easescale='steep' of <keyframing>: not a finite number"),
         ('easeturningpoint="2"', "", "easeturningpoint='2' of <keyframing>: not between 0 and 1"),
-        ('applymode="superpose"', "", "applymode='superpose' has no effect"),
         ("", f"<frame>{POSTURE}</frame>", "<frame> requires the attribute 'ftime'"),
         ("", f'<frame ftime="0.5">{POSTURE}</frame>', "is not after the one before it, at 1"),
         (

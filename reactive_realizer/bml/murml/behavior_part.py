@@ -8,7 +8,7 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import MissingElement
 from reactive_realizer.bml.murml.behaviors import DESCRIPTION
 from reactive_realizer.bml.murml.description import Scope
-from reactive_realizer.bml.murml.faults import NothingToPlay
+from reactive_realizer.bml.murml.faults import MurmlNotRealized, NothingToPlay
 from reactive_realizer.bml.murml.reader import MurmlReader
 from reactive_realizer.bml.names import MURML
 from reactive_realizer.bml.trees import Tree, children_of, name_of, namespace_of
@@ -39,6 +39,9 @@ def read_murml(tree: Tree, source: BlockSource, notes: list[Fault]) -> dict[str,
         return {"description": description, "content": content}
     if description.keyframing is None:
         raise RealizerError(source.located(inside[0], NothingToPlay(element=_FACE)))
+    if description.keyframing.added:
+        kept = MurmlNotRealized(feature="applymode='superpose'", reason="frames of a face replace what plays below")
+        notes.append(source.located(inside[0], kept))
     return {"keyframing": description.keyframing, "content": content}
 
 

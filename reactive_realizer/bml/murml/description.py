@@ -223,12 +223,14 @@ class Keyframing:
         ease_scale: steepness of the sigmoid by which each way to a frame passes; at 0, it passes evenly.
         ease_turning_point: of that sigmoid, as a share of the time.
         from_current: whether it begins with the present pose, and not with the first frame.
+        added: whether it is added to other motion, and does not replace it.
     """
 
     frames: tuple[Frame, ...]
     ease_scale: float
     ease_turning_point: float
     from_current: bool
+    added: bool = False
 
     def progress(self, share: float) -> float:
         """The completed share of a way to a frame, 0 to 1, after a share of its time.

@@ -7,7 +7,7 @@ from typing import Final, Protocol, TypeVar
 from reactive_realizer.bml.attribute_types import Boolean, Float
 from reactive_realizer.bml.faults import BadAttribute, BeyondLimit, GivenTwice, MissingAttribute, UnknownElement
 from reactive_realizer.bml.murml.description import Frame, Keyframing
-from reactive_realizer.bml.murml.faults import BadPosture, FrameTooEarly, MurmlNotRealized, NothingToPlay
+from reactive_realizer.bml.murml.faults import BadPosture, FrameTooEarly, NothingToPlay
 from reactive_realizer.bml.names import Location
 from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError, quoted
@@ -47,16 +47,12 @@ def read_keyframing(tree: Tree, locate: Callable[[Tree], Location], notes: list[
     frames = reader.frames(tree)
     if not frames:
         raise RealizerError(notes[0] if len(notes) == 1 else reader.at(tree, NothingToPlay(element=name_of(tree))))
-    if tree.get("applymode", "exclusive").lower() == "superpose":
-        superposed = MurmlNotRealized(
-            feature="applymode='superpose'", reason="frames replace other motion of their joints"
-        )
-        notes.append(reader.at(tree, superposed))
     return Keyframing(
         tuple(frames),
         reader.value(tree, "easescale", _STEEPNESS, 1.0),
         reader.value(tree, "easeturningpoint", _SHARE, 0.5),
         not reader.value(tree, "dont_insert_startframe", Boolean(), False),
+        tree.get("applymode", "exclusive").lower() == "superpose",
     )
 
 

@@ -45,6 +45,7 @@ from reactive_realizer.engines.animation.motions.key_poses import Key
 from reactive_realizer.engines.animation.motions.murml_files import read_murml_file, read_murml_text
 from reactive_realizer.engines.animation.motions.pose_goals import stored_pose
 from reactive_realizer.engines.animation.motions.reaching import reach
+from reactive_realizer.engines.animation.motions.superposed_frames import SuperposedFrames, TurnFrame
 from reactive_realizer.errors import Fault, RealizerError
 
 _KEPT = 0.4
@@ -70,7 +71,7 @@ class MurmlMaker:
     def __init__(self, context: MakerContext) -> None:
         self._context = context
 
-    def __call__(self, request: MotionRequest) -> MurmlMotionUnit:
+    def __call__(self, request: MotionRequest) -> MurmlMotionUnit | SuperposedFrames:
         """Make a gesture.
 
         Raises:
@@ -89,7 +90,7 @@ class MurmlMaker:
         motion.notes = (*found.notes, *motion.notes)
         return motion
 
-    def _motion(self, name: str, description: MurmlDescription) -> MurmlMotionUnit:
+    def _motion(self, name: str, description: MurmlDescription) -> MurmlMotionUnit | SuperposedFrames:
         rest = self._context.rest.body
         if description.keyframing is not None:
             return self._animation(name, description.keyframing, rest)
@@ -101,7 +102,7 @@ class MurmlMaker:
         motion.notes = tuple(stroke.notes)
         return motion
 
-    def _animation(self, name: str, keyframing: Keyframing, rest: Body) -> MurmlMotionUnit:
+    def _animation(self, name: str, keyframing: Keyframing, rest: Body) -> MurmlMotionUnit | SuperposedFrames:
         """Return the motion of key frames.
 
         Raises:
@@ -109,6 +110,7 @@ class MurmlMaker:
         """
         known = rest.skeleton.joints
         keys: list[Key] = []
+        added: list[TurnFrame] = []
         rotations: dict[str, Quat] = {}
         named: set[str] = set()
         for frame in keyframing.frames:
@@ -121,12 +123,18 @@ class MurmlMaker:
             reached = frame.time if keys or keyframing.from_current else 0.0
             pose = SolvedPose(dict(rotations))
             keys.append(Key(before, reached, frame.time, keyframing.progress, pose, frame.location))
+            added.append(TurnFrame(reached, dict(rotations)))
         lacking = {joint for joint in named if joint not in known and not folded_spine([joint], known)}
         if not rotations:
             raise RealizerError(NoJoints(joints=tuple(sorted(lacking)), element="murmlgesture"))
         last = posed(rest, keys[-1].pose)
         joints = frozenset(rotations)
-        motion = MurmlMotionUnit(name, keys, rest, {}, reach(last, rest, joints).preferred)
+        fade_out = reach(last, rest, joints).preferred
+        motion = (
+            SuperposedFrames(added, keyframing.progress, fade_out, MurmlMotionUnit.fixed)
+            if keyframing.added
+            else MurmlMotionUnit(name, keys, rest, {}, fade_out)
+        )
         motion.lacking = frozenset(lacking)
         return motion
 
