@@ -33,6 +33,8 @@ DEFAULT_ENGINES: Final = (
 DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml", "face": "facebinding.xml"}
 VISEMES: Final = "visemes"
 """The kind of the binding from sounds to the mouth; that of the package depends on the avatar."""
+SPEECH: Final = "speech"
+"""The kind of AsapRealizer's bindings from sounds to joints."""
 
 LIGHTEST, HEAVIEST = 1.0, 1000.0
 """Bounds of the weight of a character, kg."""
@@ -169,7 +171,7 @@ class _Reader:
 
     def character(self, key: str, table: Any) -> CharacterSpec:
         spec = self.read(CharacterSpec, key, table)
-        self.know(f"{key}.bindings", spec.bindings, (*DEFAULT_BINDINGS, VISEMES))
+        self.know(f"{key}.bindings", spec.bindings, (*DEFAULT_BINDINGS, VISEMES, SPEECH))
         if spec.weight is not None and not LIGHTEST <= spec.weight <= HEAVIEST:
             raise self._bad(f"{key}.weight", f"{spec.weight:g} is not from {LIGHTEST:g} to {HEAVIEST:g} kg")
         if spec.blink_rate is not None and not 0.0 <= spec.blink_rate <= MOST_BLINKS:

@@ -11,8 +11,9 @@ from pathlib import Path
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS, Assets
 from reactive_realizer.assembly.binding_files import binding_files
 from reactive_realizer.assembly.faults import BadHumanFile
-from reactive_realizer.assembly.human_file import AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
+from reactive_realizer.assembly.human_file import SPEECH, AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
 from reactive_realizer.assembly.registry import load, names
+from reactive_realizer.assembly.speech_binding import read_speech_binding
 from reactive_realizer.bml.dialects import Dialects
 from reactive_realizer.bml.expressivity import Expressivity
 from reactive_realizer.clock.units import GlobalTime
@@ -160,6 +161,7 @@ def _character(
         tts,
         spec.voice_of(options.voice),
         binding_files(spec.bindings, file, assets),
+        read_speech_binding(assets(spec.bindings[SPEECH]), assets, humanoid) if SPEECH in spec.bindings else None,
         mouth,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},
         functions={name: load("functions", name) for name in names("functions")},

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Self
 
 from reactive_realizer.binding.mouth_shapes import SILENCE, VISEMES, Articulator, MouthShape
-from reactive_realizer.binding.viseme_file import read_binding_file
+from reactive_realizer.binding.viseme_file import MouthTables, read_binding_file
 from reactive_realizer.embodiment.face_map import FaceMap
 
 _ARKIT, _PHONEMES = "visemes/arkit.toml", "visemes/phonemes.toml"
@@ -40,9 +40,15 @@ class VisemeBinding:
     articulators: Mapping[str, Articulator]
 
     @classmethod
-    def of(cls, face: FaceMap, files: Sequence[Path], asset: Callable[[str], Path]) -> Self:
+    def of(
+        cls,
+        face: FaceMap,
+        files: Sequence[Path],
+        asset: Callable[[str], Path],
+        first: MouthTables | None = None,
+    ) -> Self:
         """The binding of a face; otherwise as `read`."""
-        return cls.read(files, face.own, asset, face.joints, tuple(face.stand_ins))
+        return cls.read(files, face.own, asset, face.joints, tuple(face.stand_ins), first)
 
     @classmethod
     def read(
@@ -52,6 +58,7 @@ class VisemeBinding:
         asset: Callable[[str], Path],
         joints: Collection[str] = (),
         stand_ins: Collection[str] = (),
+        first: MouthTables | None = None,
     ) -> Self:
         """Reads the binding of an avatar.
 
@@ -65,6 +72,7 @@ class VisemeBinding:
             asset: finds an asset by name.
             joints: of its skeleton.
             stand_ins: names of weights that it shows by others (`FaceMap.stand_ins`).
+            first: what takes precedence over all files; None for nothing.
 
         Raises:
             RealizerError: "bad-visemes": a file cannot be used, or names something that the avatar does not have.
@@ -72,7 +80,8 @@ class VisemeBinding:
         """
         standard = standard_binding(morphs)
         shown = (*morphs, *stand_ins)
-        read = [read_binding_file(file, shown, joints) for file in files]
+        read = [] if first is None else [first]
+        read += [read_binding_file(file, shown, joints) for file in files]
         read += [read_binding_file(asset(name), shown, joints, shared=True) for name in (standard, _PHONEMES)]
         complete = next(rank for rank, file in enumerate(read) if file.articulators)
         articulators = read[complete].articulators

@@ -34,8 +34,8 @@ class BadVisemes(Fault):
 
 
 @dataclass(frozen=True, slots=True)
-class BindingFile:
-    """What a file says, as in `VisemeBinding`; each table may be empty."""
+class MouthTables:
+    """What a file says of the mouth, as in `VisemeBinding`; each table may be empty."""
 
     name: str
     phonemes: Mapping[str, str]
@@ -65,7 +65,7 @@ class BindingFile:
 
 def read_binding_file(
     path: Path, morphs: Collection[str], joints: Collection[str], *, shared: bool = False
-) -> BindingFile:
+) -> MouthTables:
     """Reads a file.
 
     Args:
@@ -81,7 +81,7 @@ def read_binding_file(
     table = _read_table(path)
     reader = _Reader(path.name, morphs, joints, shared=shared)
     reader.know("the file", table, ("phonemes", "visemes", "articulators"))
-    return BindingFile(
+    return MouthTables(
         path.name,
         reader.phonemes(reader.table("phonemes", table.get("phonemes", {}))),
         {viseme: reader.shape(viseme, own) for viseme, own in reader.section(table, "visemes", VISEMES)},

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
+from reactive_realizer.binding.viseme_file import MouthTables
 from reactive_realizer.bml.expressivity import NEUTRAL, Expressivity
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.humanoid import Humanoid
@@ -41,6 +42,7 @@ class EngineContext:
         tts: the text-to-speech binding that all characters share.
         voice: name of this character's voice, None for the binding's default.
         bindings: the character's binding files, by kind, if it has any; entries of earlier files take precedence.
+        speech_binding: the mouth by joints, which takes precedence over that of `bindings`; None for none.
         lip_sync: visemes of this character's speech.
         time: the time of the present tick, s, for cells that change with time.
         trajectories: for changes of parameters, by name.
@@ -63,6 +65,7 @@ class EngineContext:
     tts: TTSBinding
     voice: str | None
     bindings: Mapping[str, tuple[Path, ...]]
+    speech_binding: MouthTables | None = None
     lip_sync: LipSyncProvider | None = None
     time: Source[GlobalTime] = field(default_factory=lambda: Source(Graph(), "time", GlobalTime(0.0)))
     trajectories: Mapping[str, TrajectoryFunction] = field(default_factory=dict)

@@ -10,10 +10,12 @@ from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.embodiment.joints import JAW
+from reactive_realizer.embodiment.quaternion import rotation_vector
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import open_pilot
+from tests.engines.speech.lip_sync.test_jaw_joint import with_jaw
 
 from .conftest import fences, page
 
@@ -57,6 +59,22 @@ def test_a_mistyped_morph_target_is_answered_as_shown(tmp_path: Path) -> None:
     with pytest.raises(RealizerError) as refused:
         VisemeBinding.read([file], ("jawOpen", "mouthLowerDownLeft", "mouthLowerDownRight"), Assets())
     assert str(refused.value) == message
+
+
+async def test_the_speech_binding_opens_the_jaw(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for fence in fences(PAGE, "xml"):
+        (tmp_path / fence.note).write_text(fence.text, encoding="utf-8")
+    with_jaw(tmp_path / "puppet.glb")
+    human = '[character.alice]\navatar = "puppet.glb"\nbindings = { speech = "speechbinding.xml" }\n'
+    (tmp_path / "human.toml").write_text(human, encoding="utf-8")
+    monkeypatch.setattr(TextVoice, "synthesize", lambda *_: LA)
+    async with open_pilot(SceneOptions(tmp_path / "human.toml", "text", (tmp_path,))) as pilot:
+        pilot.watch()
+        pilot.block("b", '<speech id="s"><text>la</text></speech>')
+        await pilot.advance(1)
+        opened = [rotation_vector(body.rotation(JAW))[0] for body in pilot.bodies()]
+        assert max(opened) == pytest.approx(0.3, abs=0.01)
+        assert pilot.feedback.warnings == []
 
 
 def test_the_jaw_of_the_robot_turns(tmp_path: Path) -> None:

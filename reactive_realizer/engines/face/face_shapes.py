@@ -132,7 +132,7 @@ class FaceShapes:
             expressions,
             _fap_table(context.asset(_FAPS), avatar, context.asset(STAND_INS)),
             EmotionWheel.read(context.asset(_WHEEL), expressions.lexemes),
-            VisemeBinding.of(face, context.bindings.get("visemes", ()), context.asset).shapes,
+            VisemeBinding.of(face, context.bindings.get("visemes", ()), context.asset, context.speech_binding).shapes,
             face.names,
             context.asset,
         )

@@ -75,7 +75,7 @@ class SpeechEngine(SoundEngine):
         self._streams = context.speech_streams
         self._notes = _SpeechNotes()
         files = context.bindings.get("visemes", ())
-        self._visemes = VisemeBinding.of(context.humanoid.face, files, context.asset)
+        self._visemes = VisemeBinding.of(context.humanoid.face, files, context.asset, context.speech_binding)
         self._track: LipSyncTrack | None = None
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
