@@ -375,5 +375,5 @@ def lasts(behavior: Behavior) -> bool:
     These are controllers, loops, and hands that hold on to a target.
     """
     looping = isinstance(behavior, Keyframe) and behavior.parameters.get(_LOOP, "").lower() in ("true", "1")
-    holding = isinstance(behavior, Pointing) and behavior.extensions.get(REACH, "").upper() == Reach.HOLD
+    holding = isinstance(behavior, Pointing) and behavior.extensions.get(REACH, "").strip().upper() == Reach.HOLD
     return looping or holding or isinstance(behavior, Controller)

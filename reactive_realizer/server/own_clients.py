@@ -10,6 +10,9 @@ from reactive_realizer.errors import RealizerError
 
 logger = logging.getLogger(__name__)
 
+_PATIENCE = 2.0
+"""Time that clients have to end when the server does, s."""
+
 
 class OwnClient(NamedTuple):
     """A client of the server in its process, which connects as any other.
@@ -25,12 +28,16 @@ class OwnClient(NamedTuple):
 
 @asynccontextmanager
 async def accompanied(clients: Iterable[OwnClient], url: str) -> AsyncIterator[None]:
-    """Run clients meanwhile. The end of one is logged, and ends nothing else."""
-    async with asyncio.TaskGroup() as group:
-        tasks = [group.create_task(_run(client, url)) for client in clients]
+    """Run clients meanwhile. The end of one is logged, and ends nothing else; one that does not end is left behind."""
+    # Not in a TaskGroup, which would wait for a client that does not end.
+    tasks = [asyncio.create_task(_run(client, url)) for client in clients]  # noqa: TID251
+    try:
         yield
+    finally:
         for task in tasks:
             task.cancel()
+        if tasks:
+            await asyncio.wait(tasks, timeout=_PATIENCE)
 
 
 async def _run(client: OwnClient, url: str) -> None:
@@ -40,7 +47,7 @@ async def _run(client: OwnClient, url: str) -> None:
         logger.error("the bridge %s has ended: %s", client.name, problem.fault.sentence)
     except OSError as problem:
         logger.error("the bridge %s has ended: %s", client.name, problem)
-    except Exception:
+    except (Exception, SystemExit):
         logger.exception("the bridge %s has failed", client.name)
     else:
         logger.info("the bridge %s has ended", client.name)

@@ -142,8 +142,9 @@ async def test_eyes_follow_what_a_hand_carries(pilot: RealizerPilot) -> None:
     assert pilot.feedback.status("b") == "DONE"
 
 
-async def test_a_hand_holds_on_to_a_target_that_moves_long_after_its_block(pilot: RealizerPilot) -> None:
-    pilot.block("b", reach("hold", 'ready="1"'))
+@pytest.mark.parametrize("word", ["hold", " Hold "])
+async def test_a_hand_holds_on_to_a_target_that_moves_long_after_its_block(pilot: RealizerPilot, word: str) -> None:
+    pilot.block("b", reach(word, 'ready="1"'))
     pilot.block("c", '<head id="h" lexeme="NOD"/>', composition="APPEND")
     await pilot.advance(20)
     pilot.move("box", HIGH)

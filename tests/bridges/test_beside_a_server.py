@@ -17,6 +17,7 @@ from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.cli.bridge import bridge
 from reactive_realizer.client.stomp_bus import Broker, connected
 from reactive_realizer.client.vh_message import SCOPE, VhMessage
+from reactive_realizer.server import own_clients
 from reactive_realizer.server.own_clients import OwnClient
 from reactive_realizer.server.serve import ServerOptions, serve
 
@@ -104,6 +105,32 @@ async def test_a_bridge_that_fails_is_told_in_the_log_without_the_token_and_the_
             headers = {"Authorization": f"Bearer {TOKEN}"}
             async with aiohttp.ClientSession(headers=headers) as http, http.get(f"{url}/status") as answer:
                 assert answer.status == 200
+
+
+async def test_bridges_that_exit_or_do_not_end_hold_up_neither_the_server_nor_its_end(
+    log: Log, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def exits(url: str) -> None:
+        raise SystemExit(3)
+
+    async def stays(url: str) -> None:
+        while True:
+            try:
+                await asyncio.Event().wait()
+            except asyncio.CancelledError:
+                if forever.is_set():
+                    raise
+
+    forever = asyncio.Event()
+    monkeypatch.setattr(own_clients, "_PATIENCE", 0.0)
+    before = asyncio.all_tasks()
+    async with own_clients.accompanied([OwnClient("exits", exits), OwnClient("stays", stays)], "http://here"):
+        assert "exits" in await log.line("has failed")
+    forever.set()
+    left = asyncio.all_tasks() - before
+    for task in left:
+        task.cancel()
+    assert len(await asyncio.gather(*left, return_exceptions=True)) == 1
 
 
 async def test_a_realizer_that_refuses_the_token_is_named_without_it() -> None:
