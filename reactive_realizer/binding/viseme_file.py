@@ -35,7 +35,7 @@ class BadVisemes(Fault):
 
 @dataclass(frozen=True, slots=True)
 class MouthTables:
-    """What a file says of the mouth, as in `VisemeBinding`; each table may be empty."""
+    """The tables of one file of a `VisemeBinding`; each may be empty."""
 
     name: str
     phonemes: Mapping[str, str]

@@ -52,7 +52,7 @@ class Pawn(NamedTuple):
         return self if before is None else self._replace(coordinates={**before.coordinates, **self.coordinates})
 
     def place(self, unit: float) -> dict[str, list[float]] | list[float]:
-        """Where it is, as the protocol tells it: its position, with its orientation if any angle was given.
+        """Return its position as the protocol has it, with its orientation if any angle was given.
 
         Args:
             unit: of its coordinates, m.

@@ -19,7 +19,7 @@ from reactive_realizer.testing.feedback_list import FeedbackList
 START: Final = 5.0
 """Time limit for the first feedback, s."""
 _SENT: Final = ("bml", "act")
-"""What a realizer is sent, and some programs send back."""
+"""Elements that are sent to a realizer; a program that sends them back is no realizer."""
 _LONGEST_LINE = 16_000_000
 """Bytes."""
 

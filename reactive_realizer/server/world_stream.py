@@ -15,7 +15,7 @@ from reactive_realizer.server.protocol import encode
 _INTERVAL: Final = 0.1
 """Shortest time between two messages, s."""
 _Target = list[float] | dict[str, list[float]]
-"""Where a target is, m; or its position and its orientation, if it has one."""
+"""The position of a target, m; or its position and orientation, if it has one."""
 _Place = tuple[list[float], float]
 """Where a character stands, m, and its heading, degrees to the left of +z."""
 

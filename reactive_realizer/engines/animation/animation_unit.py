@@ -242,7 +242,7 @@ class AnimationUnit(PlanUnit):
 
     @property
     def holds_on(self) -> bool:
-        """Whether its hands are to stay at a target until it is ended."""
+        """Whether its hands stay at a target until the unit is ended."""
         return self.timing.persistent and isinstance(self.behavior, Pointing)
 
     def subsiding(self, time: GlobalTime) -> bool:

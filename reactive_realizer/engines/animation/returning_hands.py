@@ -1,4 +1,4 @@
-"""Where hands are on their way back to rest, as the times of points imply, whether frames are made or not."""
+"""Computes where hands are on their way back to rest from the times of points, also when no frames are made."""
 
 from collections.abc import Iterable
 
