@@ -10,7 +10,7 @@ from lxml import etree
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.names import SBM
 from reactive_realizer.bml.smartbody.attributes import WITHOUT_EFFECT, drop, set_parameter, take, value_of
-from reactive_realizer.bml.smartbody.gestures import loops
+from reactive_realizer.bml.smartbody.gestures import ends
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 
 _JOINTS: Final = "joint-range"
@@ -84,8 +84,7 @@ def _queue_clips(holder: Tree, source: BlockSource) -> None:
     """Ties the start of each clip that is queued to the end of the one before it, if that one ends of itself."""
     clips = [tree for tree in holder if name_of(tree) in _CLIPS and namespace_of(tree) in {"", SBM}]
     for before, clip in pairwise(clips):
-        ends = not loops(before) or {"end", "relax"} & set(before.keys()) or value_of(before, "duration")
-        if value_of(clip, _SCHEDULE).lower() == _QUEUED and ends:
+        if value_of(clip, _SCHEDULE).lower() == _QUEUED and ends(before):
             drop(clip, _SCHEDULE)
             _give_id(before, source)
             clip.set("start", f"{before.get('id')}:end")

@@ -54,7 +54,9 @@ _ANIMATION: Final = "animation"
 _AXES: Final = "xyz"
 """Parameters of blends."""
 _FARTHEST: Final = 1e6
-_LONGEST: Final = 600.0
+_DURATIONS: Final = (0.01, 600.0)
+_NO_DURATION: Final = frozenset({"-1", "-1.0"})
+"""The duration that stands for none in SmartBody."""
 _SPEEDS: Final = (0.05, 20.0)
 _EARLY_POINTS: Final = ("ready", "stroke_start", "strokeStart", "stroke")
 _HOLDS: Final = {"prestroke_hold": ("ready", "strokeStart"), "poststroke_hold": ("strokeEnd", "relax")}
@@ -90,8 +92,10 @@ def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
     for name, value in _AS_HERE.items():
         if value in {tree.get(name, "").lower(), tree.get(f"{{{SBM}}}{name}", "").lower()}:
             drop(tree, name)
-    duration = take_number(tree, "duration", source, -1.0, _LONGEST)
-    if duration is not None and duration > 0.0:
+    if value_of(tree, "duration") in _NO_DURATION:
+        drop(tree, "duration")
+    duration = take_number(tree, "duration", source, *_DURATIONS)
+    if duration is not None:
         tie(tree, "end", "start", duration)
     if partial := take(tree, "partial-joint"):
         set_parameter(tree, "below", joint_named(partial), source)
@@ -117,6 +121,20 @@ def loops(tree: Tree) -> bool:
     if wrap or loop:
         return wrap == "loop" or loop == "true"
     return name_of(tree) != _ANIMATION and not set(OTHER_POINTS).intersection(tree.keys())
+
+
+def ends(tree: Tree) -> bool:
+    """Return whether a clip ends of itself: it is no loop, or has an end or a duration."""
+    return not loops(tree) or bool({"end", "relax"} & set(tree.keys())) or _has_duration(tree)
+
+
+def _has_duration(tree: Tree) -> bool:
+    """Return whether a clip has a duration that can be read."""
+    shortest, longest = _DURATIONS
+    try:
+        return shortest <= float(value_of(tree, "duration")) <= longest
+    except ValueError:
+        return False
 
 
 def _mix(tree: Tree, source: BlockSource) -> None:

@@ -149,6 +149,24 @@ def test_a_clip_that_is_queued_behind_a_loop_is_told() -> None:
     assert sentence == "sbm:schedule-mode of SmartBody has no effect on <blend> here"
 
 
+@pytest.mark.parametrize("duration", ["0", "0.0", "-2", "nan", "inf", "long"])
+def test_a_duration_that_no_clip_can_have_drops_it_and_no_other_clip_waits_for_its_end(duration: str) -> None:
+    clips = f'<animation id="a" name="a" loop="true" duration="{duration}"/><blend id="b" name="b" end="2"'
+    parsed = read(f'<act><bml>{clips} sbm:schedule-mode="Queued"/></bml></act>')
+    refused, left_out = (each.fault.sentence for each in parsed.problems)
+    assert refused.startswith(f"duration='{duration}' of <animation>: not ")
+    assert left_out == "sbm:schedule-mode of SmartBody has no effect on <blend> here"
+    assert parsed.block is not None
+    (queued,) = parsed.block.behaviors
+    assert {point: str(ref) for point, ref in queued.syncs.items()} == {"end": "2"}
+
+
+def test_a_duration_of_minus_1_is_none_as_in_smartbody() -> None:
+    assert only('<animation name="a" loop="true" sbm:duration="-1"/>').persistent
+    (sentence,) = told('<blend name="a" duration="-1.0"/><blend name="b" sbm:schedule-mode="Queued"/>')
+    assert sentence == "sbm:schedule-mode of SmartBody has no effect on <blend> here"
+
+
 def test_an_animation_has_a_speed() -> None:
     assert only('<animation name="Brad@Chop" speed="1.5"/>').parameters == {"speed": "1.5"}
     (sentence,) = told('<animation name="Brad@Chop" speed="0"/>')
