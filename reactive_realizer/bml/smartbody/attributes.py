@@ -17,6 +17,8 @@ WITHOUT_EFFECT: Final = ("group", "priority", "participant")
 """Attributes that make no difference in SmartBody's motion either: they are for its tools and for generators."""
 OTHER_POINTS: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax", "stroke_start", "stroke_end")
 """Sync points of behaviors of SmartBody that are read as behaviors with a start and an end only."""
+AT_ONCE: Final = frozenset({"0", "0.0"})
+"""The time of the start of a block, as scripts write it where they ask for no time."""
 _PREFIX: Final = f"{{{SBM}}}"
 
 

@@ -9,7 +9,7 @@ from lxml import etree
 
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.names import SBM
-from reactive_realizer.bml.smartbody.attributes import WITHOUT_EFFECT, drop, set_parameter, take, value_of
+from reactive_realizer.bml.smartbody.attributes import AT_ONCE, WITHOUT_EFFECT, drop, set_parameter, take, value_of
 from reactive_realizer.bml.smartbody.gestures import ends
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 
@@ -81,13 +81,32 @@ def _join_faces(holder: Tree, source: BlockSource) -> None:
 
 
 def _queue_clips(holder: Tree, source: BlockSource) -> None:
-    """Ties the start of each clip that is queued to the end of the one before it, if that one ends of itself."""
+    """Ties the start of each clip that is queued to the end of the one before it, if that one ends of itself.
+
+    With a start of its own, it comes after both.
+    """
     clips = [tree for tree in holder if name_of(tree) in _CLIPS and namespace_of(tree) in {"", SBM}]
     for before, clip in pairwise(clips):
         if value_of(clip, _SCHEDULE).lower() == _QUEUED and ends(before):
             drop(clip, _SCHEDULE)
             _give_id(before, source)
-            clip.set("start", f"{before.get('id')}:end")
+            end = f"{before.get('id')}:end"
+            if clip.get("start", "0").strip() in AT_ONCE:
+                clip.set("start", end)
+            elif source.holds_ref(clip, "start"):  # what is no reference is left to the reader, which refuses it
+                _start_after(clip, (end, str(clip.attrib.pop("start"))), source)
+
+
+def _start_after(tree: Tree, references: Iterable[str], source: BlockSource) -> None:
+    """Adds constraints to a block after which a behavior starts as early as possible after several points."""
+    _give_id(tree, source)
+    constraint = etree.Element("constraint")
+    tree.addnext(constraint)
+    for reference in references:
+        after = etree.SubElement(constraint, "after", {"ref": reference})
+        sync = etree.SubElement(after, "sync", {"ref": f"{tree.get('id')}:start"})
+        for each in (constraint, after, sync):
+            source.place(each, tree)
 
 
 def _times_of_face(tree: Tree) -> tuple[tuple[str, str], ...] | None:

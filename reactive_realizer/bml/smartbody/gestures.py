@@ -6,6 +6,7 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import PlaysOver
 from reactive_realizer.bml.names import BMLT, SBM
 from reactive_realizer.bml.smartbody.attributes import (
+    AT_ONCE,
     OTHER_POINTS,
     drop,
     left_out,
@@ -152,5 +153,5 @@ def _start_as_early_as_possible(tree: Tree) -> None:
     """Unties points at 0 behind a start that is not tied: SmartBody shifts such a block until it starts at 0."""
     if "start" not in tree.attrib:
         for point in _EARLY_POINTS:
-            if tree.get(point, "").strip() in {"0", "0.0"}:
+            if tree.get(point, "").strip() in AT_ONCE:
                 del tree.attrib[point]

@@ -3,10 +3,11 @@
 import pytest
 
 from reactive_realizer.bml.behaviors import Gesture
+from reactive_realizer.bml.block import Order
 from reactive_realizer.bml.extensions import Keyframe
 from reactive_realizer.bml.vocabulary import Mode
 
-from .reading import behaviors, only, read, told
+from .reading import behaviors, block, only, read, told
 
 
 @pytest.mark.parametrize(
@@ -138,10 +139,24 @@ def test_an_update_of_a_blend_plays_over_it_and_says_once_what_changes_it() -> N
     ],
 )
 def test_a_clip_that_is_queued_starts_when_the_one_before_it_ends(first: str) -> None:
-    clips = behaviors(f'{first}<blend name="b" sbm:wrap-mode="Once" sbm:schedule-mode="Queued" start="1"/>')
+    clips = behaviors(f'{first}<blend name="b" sbm:wrap-mode="Once" sbm:schedule-mode="Queued" start="0"/>')
     (queued,) = (clip for clip in clips if isinstance(clip, Keyframe) and clip.animation == "b")
     (before,) = (clip.id for clip in clips if isinstance(clip, Keyframe) and clip.animation == "a")
     assert str(queued.syncs["start"]) == f"{before}:end"
+
+
+def test_a_clip_that_is_queued_with_a_start_of_its_own_comes_after_both() -> None:
+    queued = '<blend id="b" name="b" sbm:schedule-mode="Queued" start="s:end+1"/>'
+    read = block(f'<act><bml><speech id="s">Up</speech><animation id="a" name="a"/>{queued}</bml></act>')
+    afters = [(str(each.ref), *map(str, each.refs)) for each in read.constraints if isinstance(each, Order)]
+    assert afters == [("a:end", "b:start"), ("s:end+1", "b:start")]
+    (syncs,) = (clip.syncs for clip in read.behaviors if clip.id == "b")
+    assert syncs == {}
+
+
+def test_a_start_of_a_queued_clip_that_is_no_reference_is_told() -> None:
+    (sentence,) = told('<animation name="a"/><animation name="b" sbm:schedule-mode="Queued" start="x y"/>')
+    assert sentence.startswith("start='x y' of <keyframe>: not a sync reference")
 
 
 def test_a_clip_that_is_queued_behind_a_loop_is_told() -> None:
