@@ -42,9 +42,9 @@ class _Command(argparse.ArgumentParser):
 
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; the exit status."""
-    options = _parser().parse_args(arguments)
-    log_to_stderr(logging.INFO if options.verbose else logging.ERROR, options.log_format)
     try:
+        options = _parser().parse_args(arguments)
+        log_to_stderr(logging.INFO if options.verbose else logging.ERROR, options.log_format)
         status: int = options.run(options)
     except RealizerError as problem:
         print(problem.fault.sentence, file=sys.stderr)

@@ -35,6 +35,17 @@ class NoPlugin(Fault):
     known: tuple[str, ...]
 
 
+class BrokenPlugin(Fault):
+    """A plug-in that cannot be imported, or is not what its group contains."""
+
+    code = "broken-plugin"
+    template = "'{name}' in the plug-in group {group} cannot be used: {source}: {reason}"
+    group: str
+    name: str
+    source: str
+    reason: str
+
+
 class NoFolder(Fault):
     """A folder of assets that does not exist."""
 

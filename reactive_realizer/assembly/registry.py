@@ -1,13 +1,16 @@
 """Finds plug-ins by name. Built-in parts are in the same entry-point groups as plug-ins."""
 
+import logging
 import sys
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
-from reactive_realizer.assembly.faults import NoPlugin
+from reactive_realizer.assembly.faults import BrokenPlugin, NoPlugin
 from reactive_realizer.engine.faults import TwoPlugins
 from reactive_realizer.errors import RealizerError
+
+logger = logging.getLogger(__name__)
 
 GROUP = "reactive_realizer"
 _GROUPS = (
@@ -23,26 +26,62 @@ _GROUPS = (
 )
 
 
-def load(group: str, name: str) -> Any:
-    """Imports the object of an entry point of ``reactive_realizer.GROUP``.
+def load(group: str, name: str, kind: type = object) -> Any:
+    """Imports the object of an entry point of ``reactive_realizer.GROUP``, which has to be of a kind.
 
     Raises:
-        RealizerError: no plug-in has the name, or two have it.
+        RealizerError: "no-plugin", "two-plugins", or "broken-plugin": it cannot be imported, or is of another kind.
     """
-    known = names(group)
-    found = [point for point in _points(group) if point.name == name]
-    if not found:
-        raise RealizerError(NoPlugin(group=group, name=name, known=tuple(known)))
-    if len({point.value for point in found}) > 1:
-        raise RealizerError(TwoPlugins(group=group, name=name, known=tuple(sorted(point.value for point in found))))
-    return found[0].load()
+    point = _point(group, name)
+    plugin = _imported(group, point)
+    if not isinstance(plugin, kind):
+        raise _broken(group, point, f"it is of the type {type(plugin).__name__}, not {kind.__name__}")
+    return plugin
+
+
+def broken(group: str, name: str, problem: BaseException) -> RealizerError:
+    """The error of a plug-in that raised an exception while it was set up."""
+    return _broken(group, _point(group, name), _reason(problem))
 
 
 def load_all() -> None:
-    """Import every plug-in of every group, so that all faults are defined."""
+    """Import every plug-in of every group that can be imported, so that all faults are defined."""
     for group in _GROUPS:
         for point in _points(group):
-            point.load()
+            try:
+                _imported(group, point)
+            except RealizerError as problem:
+                logger.warning("%s", problem.fault.sentence)
+
+
+def _point(group: str, name: str) -> EntryPoint:
+    found = [point for point in _points(group) if point.name == name]
+    if not found:
+        raise RealizerError(NoPlugin(group=group, name=name, known=tuple(names(group))))
+    if len({point.value for point in found}) > 1:
+        raise RealizerError(TwoPlugins(group=group, name=name, known=tuple(sorted(map(_source, found)))))
+    return found[0]
+
+
+def _imported(group: str, point: EntryPoint) -> Any:
+    try:
+        return point.load()
+    except (Exception, SystemExit) as problem:
+        raise _broken(group, point, _reason(problem)) from problem
+
+
+def _broken(group: str, point: EntryPoint, reason: str) -> RealizerError:
+    return RealizerError(BrokenPlugin(group=group, name=point.name, source=_source(point), reason=reason))
+
+
+def _source(point: EntryPoint) -> str:
+    """Where a plug-in is from: its distribution and its object."""
+    return point.value if point.dist is None else f"{point.dist.name} ({point.value})"
+
+
+def _reason(problem: BaseException) -> str:
+    """An exception on one line."""
+    return " ".join(f"{type(problem).__name__}: {problem}".split())
 
 
 def names(group: str) -> list[str]:

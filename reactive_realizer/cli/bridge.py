@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
-from reactive_realizer.assembly.registry import load, names
+from reactive_realizer.assembly.registry import broken, load, names
 from reactive_realizer.bridges.bridge import Bridge
 from reactive_realizer.server.own_clients import OwnClient
 
@@ -20,11 +20,11 @@ class _BridgeParser(argparse.ArgumentParser):
     def parse_known_args(self, args: Sequence[str] | None = None, namespace: Any = None) -> Any:  # type: ignore[override]
         """Parse the arguments after the name of the bridge."""
         name = self.prog.rpartition(" ")[2]
-        bridge: Bridge = load(_GROUP, name)
+        bridge: Bridge = load(_GROUP, name, Bridge)
         self.description = bridge.description
         self.epilog = f"example: reactive-realizer bridge {name} http://127.0.0.1:8088"
         self.add_argument("url", metavar="URL", help="the address of the realizer, http://127.0.0.1:8088")
-        bridge.add_options(self)
+        _add_options(name, bridge, self)
         self.set_defaults(run=partial(_run, bridge))
         return super().parse_known_args(args, namespace)
 
@@ -42,16 +42,29 @@ def bridge(text: str) -> OwnClient:
 
     Raises:
         ArgumentTypeError: there is no such bridge.
+        RealizerError: "two-plugins" or "broken-plugin".
         ValueError: a quotation does not end, or there is no name.
     """
     name, *arguments = shlex.split(text)
     if name not in (known := names(_GROUP)):
         raise argparse.ArgumentTypeError(f"there is no bridge '{name}'; available: {', '.join(known)}")
-    chosen: Bridge = load(_GROUP, name)
+    chosen: Bridge = load(_GROUP, name, Bridge)
     parser = argparse.ArgumentParser(f"--bridge {name}", description=chosen.description)
-    chosen.add_options(parser)
+    _add_options(name, chosen, parser)
     options = parser.parse_args(arguments)
     return OwnClient(name, lambda url: chosen.run(url, options))
+
+
+def _add_options(name: str, bridge: Bridge, parser: argparse.ArgumentParser) -> None:
+    """Add the options of a bridge to a parser.
+
+    Raises:
+        RealizerError: "broken-plugin".
+    """
+    try:
+        bridge.add_options(parser)
+    except Exception as problem:
+        raise broken(_GROUP, name, problem) from problem
 
 
 def _run(bridge: Bridge, options: argparse.Namespace) -> int:
