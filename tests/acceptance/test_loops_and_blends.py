@@ -178,6 +178,22 @@ async def test_a_parameter_changes_a_loop_while_it_plays(open_still: OpenStill, 
     assert np.abs(np.diff(about_x(pilot, 0.5))).max() < 0.1
 
 
+@pytest.mark.parametrize("update", ['mode="update"', ""])
+async def test_a_blend_plays_over_a_loop_of_its_block_or_of_one_before(
+    open_still: OpenStill, assets: Path, update: str
+) -> None:
+    async with open_still(assets) as pilot:
+        pilot.perform(act(f'<blend name="lift" x="0"/><blend name="lift" {update} x="10" start="4"/>'))
+        await pilot.advance(9)
+        pilot.perform(act('<blend name="wave"/>').replace("'b'", "'c'"))
+        await pilot.advance(4)
+    spoken = [warning.text for warning in pilot.feedback.of("warningFeedback")]
+    assert all("plays over the one that plays" in text or "it is still waiting" in text for text in spoken)
+    assert about_x(pilot, 0.0, 4.0).min() == pytest.approx(-0.5, abs=0.03)
+    assert about_x(pilot, 4.0, 9.0).min() == pytest.approx(-1.5, abs=0.05)
+    assert about_x(pilot, 10.0).min() == pytest.approx(-1.0, abs=0.05)
+
+
 async def test_a_blend_of_two_parameters_has_cells(open_still: OpenStill, assets: Path) -> None:
     (assets / "none.xml").write_text(clip((0.0, 0.0), (2.0, 0.0)))
     (assets / "way.blend.xml").write_text(

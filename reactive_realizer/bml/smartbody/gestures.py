@@ -98,6 +98,7 @@ def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
     duration = take_number(tree, "duration", source, *_DURATIONS)
     if duration is not None:
         tie(tree, "end", "start", duration)
+    _group(tree, source)
     if partial := take(tree, "partial-joint"):
         set_parameter(tree, "below", joint_named(partial), source)
     if loops(tree):
@@ -108,6 +109,13 @@ def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
     faults = left_out(tree, source, *_OF_CLIPS, "mode")
     tree.tag = _CLIP
     return [*updates, *faults]
+
+
+def _group(tree: Tree, source: BlockSource) -> None:
+    """Has a state or blend of the whole body play over the one before it, as SmartBody plays one at a time."""
+    whole = not value_of(tree, "partial-joint") and not _adds(tree)
+    if name_of(tree) != _ANIMATION and whole:
+        set_parameter(tree, "replacementgroup", "blends", source)
 
 
 def _update(tree: Tree, source: BlockSource) -> Fault:
@@ -140,13 +148,18 @@ def _has_duration(tree: Tree) -> bool:
 
 def _mix(tree: Tree, source: BlockSource) -> None:
     """Makes parameters of what says how clips are mixed, and whether they are added to other motion."""
-    mode, additive = take(tree, "blend-mode").lower(), take(tree, "additive").lower()
-    if mode == "additive" or additive not in ("", "false"):
+    if _adds(tree):
         set_parameter(tree, "additive", "true", source)
+    drop(tree, "blend-mode", "additive")
     for name in _AXES:
         value = take_number(tree, name, source, -_FARTHEST, _FARTHEST)
         if value is not None:
             set_parameter(tree, name, f"{value:g}", source)
+
+
+def _adds(tree: Tree) -> bool:
+    """Return whether a clip is added to other motion."""
+    return value_of(tree, "blend-mode").lower() == "additive" or value_of(tree, "additive").lower() not in ("", "false")
 
 
 def _start_as_early_as_possible(tree: Tree) -> None:
