@@ -75,6 +75,7 @@ class ContentReader:
             RealizerError: ``too-many-behaviors``, or ``too-many-bytes`` in the copies kept of them.
         """
         children = self._without_lips(list(self._children(self._source.tree, required=False)))
+        constraints = [child for child in children if _is(child[0], _CONSTRAINT)]
         behaviors = [child for child in children if not _is(child[0], _CONSTRAINT)]
         self._check_number(len(behaviors))
         for tree, _ in behaviors:
@@ -82,9 +83,8 @@ class ContentReader:
                 self._source.ids.give(tree)
         for order, (tree, required) in enumerate(behaviors):
             self._read_behavior(tree, order, required)
-        for tree, required in children:
-            if _is(tree, _CONSTRAINT):
-                self._read_constraints(tree, required)
+        for tree, required in constraints:
+            self._read_constraints(tree, required)
         for behavior in self._persistent():
             self._behaviors[behavior.id] = replace(behavior, persistent=True)
 

@@ -108,6 +108,14 @@ def test_a_constraint_of_something_else_stays_for_engines_of_plug_ins_and_is_tol
     assert [each.namespace for each in block.behaviors] == ["urn:smartbody"]
 
 
+@pytest.mark.parametrize("fade", ["-1", "nan", "soon"])
+def test_a_constraint_with_a_bad_fade_is_refused_with_one_message(fade: str) -> None:
+    (sentence,) = told(
+        f'<sbm:constraint effector="r_wrist" target="box" sbm:fade-in="{fade}" sbm:fade-out="1" end="3"/>'
+    )
+    assert sentence.startswith(f"fade-in='{fade}' of <constraint>: not ")
+
+
 def test_a_reach_may_walk_to_its_target_first() -> None:
     reach, walk = sorted(
         behaviors('<sbm:reach target="box" sbm:use-locomotion="true" start="2"/>'),
