@@ -269,12 +269,10 @@ class BlockPlanner:
         return not (cancelled or cyclic or draft.renamed or draft.meant != block.meant)
 
     def _solve(self, block: BMLBlock, draft: _Draft, posed: BlockProblem) -> Generator[int, None, Plan]:
-        """Solve at once, or in a thread if that would hold up the event loop."""
+        """Solve in steps, or in a thread if these would hold up the event loop."""
         points = sum(len(unit.timing.points) for unit in posed.units)
         if len(posed.units) <= _MOST_AT_ONCE and points <= _MOST_POINTS_AT_ONCE:
-            plan = self._planning.solve(posed)
-            yield 3 * plan.size
-            return plan
+            return (yield from self._planning.solve_in_steps(posed))
         received: list[Result] = []
 
         def receive(result: Result, now: GlobalTime) -> None:

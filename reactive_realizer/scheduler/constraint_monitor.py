@@ -147,7 +147,7 @@ def _known_time(node: Node, block: BMLBlock, units: Mapping[str, PlanUnit]) -> T
             if point.id == node[1]:
                 return point.peg.value
         return None
-    return _time(node, block, units)
+    return block.start.value if isinstance(node, Origin) else node.value
 
 
 def _late(constraint: Tie | Precedence, block: BMLBlock, units: Mapping[str, PlanUnit]) -> float:

@@ -336,8 +336,8 @@ class UnitLifecycle:
         if not blocks:
             return []
         now, previous = self._board.time, self._board.previous
-        times = (cell.value for cell in changed if isinstance(cell, TimePeg))
-        past = any(time is not None and time < previous for time in times)
+        times = [cell.value for cell in changed if isinstance(cell, TimePeg)]
+        past = min((time for time in times if time is not None), default=previous) < previous
         return [
             unit
             for block in blocks

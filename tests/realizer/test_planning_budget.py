@@ -10,11 +10,15 @@ from reactive_realizer.bml.names import BML, BMLT, OWN
 from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.realizer.session import replay
 from reactive_realizer.scheduler.block_planner import BlockPlanner, Planned
+from reactive_realizer.scheduler.convex.convex_strategy import ConvexStrategy
 from reactive_realizer.scheduler.lanes import Lane
+from reactive_realizer.scheduler.problem import SchedulingProblem
+from reactive_realizer.scheduler.solution import Solution
 from reactive_realizer.testing.pilot import RealizerPilot, block, open_pilot
 
 TWO = SceneOptions(Path(__file__).parents[1] / "data" / "humans" / "two.toml", "text")
 NOD = '<head id="h" lexeme="NOD"/>'
+BEATS = '<gesture id="g" lexeme="BEAT" stroke="1"/><gesture id="h" lexeme="BEAT" stroke="1.5"/>'
 
 
 @pytest.fixture
@@ -106,6 +110,28 @@ async def test_work_beyond_the_budget_of_a_tick_is_taken_from_the_next_ones(
     assert slow.feedback.status("b3") == slow.feedback.status("c3") == "DONE"
     entries, ticks = 8 * 65, round(last * 100) + 1
     assert 20 * (ticks - 1) <= entries + sum(slices) <= 20 * ticks + max(slices)
+
+
+async def test_a_step_asks_the_strategy_once_also_where_one_gesture_takes_over_from_another(
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    solve, step = ConvexStrategy.solve, BlockPlanner.step
+
+    def count(strategy: ConvexStrategy, problem: SchedulingProblem) -> Solution:
+        asked[-1] += 1
+        return solve(strategy, problem)
+
+    def begin(planner: BlockPlanner, lane: Lane) -> tuple[int, Planned | None]:
+        asked.append(0)
+        return step(planner, lane)
+
+    monkeypatch.setattr(ConvexStrategy, "solve", count)
+    monkeypatch.setattr(BlockPlanner, "step", begin)
+    pilot.block("b", BEATS)
+    await pilot.advance(0.1)
+    assert pilot.feedback.reached("b:start")
+    assert (sum(asked), max(asked)) == (2, 1)
 
 
 @pytest.mark.parametrize("came", [0.0, 0.03], ids=["with it", "while it waits"])
