@@ -41,13 +41,17 @@ async def accompanied(clients: Iterable[OwnClient], url: str) -> AsyncIterator[N
 
 
 async def _run(client: OwnClient, url: str) -> None:
+    task = asyncio.current_task()
+    assert task is not None
     try:
         await client.run(url)
     except RealizerError as problem:
         logger.error("the bridge %s has ended: %s", client.name, problem.fault.sentence)
     except OSError as problem:
         logger.error("the bridge %s has ended: %s", client.name, problem)
-    except (Exception, SystemExit):
+    except (Exception, SystemExit, asyncio.CancelledError) as problem:
+        if isinstance(problem, asyncio.CancelledError) and task.cancelling():
+            raise  # the server cancels it; otherwise, what it waited for was canceled
         logger.exception("the bridge %s has failed", client.name)
     else:
         logger.info("the bridge %s has ended", client.name)

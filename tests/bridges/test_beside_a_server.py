@@ -107,6 +107,16 @@ async def test_a_bridge_that_fails_is_told_in_the_log_without_the_token_and_the_
                 assert answer.status == 200
 
 
+async def test_a_bridge_that_ends_by_a_cancellation_of_its_own_is_told_in_the_log_as_other_failures(log: Log) -> None:
+    async def loses_a_task(url: str) -> None:
+        lost = asyncio.get_running_loop().create_future()
+        lost.cancel()
+        await lost
+
+    async with served(log, OwnClient("lost", loses_a_task)):
+        assert await log.line("the bridge") == "the bridge lost has failed"
+
+
 async def test_bridges_that_exit_or_do_not_end_hold_up_neither_the_server_nor_its_end(
     log: Log, monkeypatch: pytest.MonkeyPatch
 ) -> None:
