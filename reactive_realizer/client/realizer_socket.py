@@ -11,6 +11,8 @@ from yarl import URL
 from reactive_realizer.errors import Fault, RealizerError
 
 _PROTOCOL: Final = 2
+_SCHEMES: Final = ("http", "https", "ws", "wss")
+_EXAMPLE: Final = "http://127.0.0.1:8088"
 
 Message = dict[str, Any]
 
@@ -113,6 +115,13 @@ class RealizerSocket:
 
 
 def _socket_url(url: str) -> URL:
+    """The address of the socket.
+
+    Raises:
+        ValueError: this is no address of a server.
+    """
     address = URL(url)
+    if address.scheme not in _SCHEMES or not address.host:
+        raise ValueError(f"this is not an address such as {_EXAMPLE}")
     socket = address.with_path("/ws").with_query(address.query) if address.path in ("", "/") else address
     return socket.update_query(streams="feedback")

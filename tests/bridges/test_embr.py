@@ -152,9 +152,12 @@ async def test_a_page_in_a_browser_cannot_send_a_script(live: tuple[LiveScene, s
         assert "request of HTTP" in (warning.text or "")
 
 
-def test_a_bridge_without_a_realizer_says_so(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["bridge", "embr", "http://127.0.0.1:9"]) == 2
-    assert "no realizer can be reached at http://127.0.0.1:9" in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ("url", "reason"), [("http://127.0.0.1:9", "Cannot connect"), ("notaurl", "this is not an address such as http://")]
+)
+def test_a_bridge_without_a_realizer_says_so(capsys: pytest.CaptureFixture[str], url: str, reason: str) -> None:
+    assert main(["bridge", "embr", url]) == 2
+    assert f"no realizer can be reached at {url}: {reason}" in capsys.readouterr().err
 
 
 async def test_a_realizer_that_is_lost_ends_the_bridge() -> None:

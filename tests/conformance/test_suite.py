@@ -188,10 +188,19 @@ async def test_the_exit_status_is_2_if_no_server_listens(capsys: pytest.CaptureF
     assert captured.err.startswith(f"no realizer can be reached at {url}: ")
 
 
-@pytest.mark.parametrize("url", ["nonsense", "http://", "ftp://127.0.0.1:1", "http://127.0.0.1:notaport"])
-async def test_the_exit_status_is_2_for_an_invalid_address(url: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert await conformance(url) == 2
-    assert len(capsys.readouterr().err.splitlines()) == 1
+@pytest.mark.parametrize("url", ["nonsense", "", "http://", "127.0.0.1:8088", "ftp://127.0.0.1:1"])
+async def test_the_exit_status_is_2_for_an_invalid_address_which_is_shown_without_its_token(
+    url: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert await conformance(f"{url}?token=secret") == 2
+    reason = "this is not an address such as http://127.0.0.1:8088"
+    assert capsys.readouterr().err == f"no realizer can be reached at {url}: {reason}\n"
+
+
+async def test_the_exit_status_is_2_for_an_invalid_port(capsys: pytest.CaptureFixture[str]) -> None:
+    assert await conformance("http://127.0.0.1:notaport") == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "port" in line.partition(": ")[2]
 
 
 async def test_the_exit_status_is_2_if_the_server_is_not_a_realizer(capsys: pytest.CaptureFixture[str]) -> None:
