@@ -21,7 +21,8 @@ from reactive_realizer.scheduler.bml_block import BMLBlock, Predecessor
 from reactive_realizer.scheduler.engine_routing import EngineRouting
 from reactive_realizer.scheduler.entry_queue import Entry
 from reactive_realizer.scheduler.faults import ActivatedAlready, NotAwaited, NotPreplanned
-from reactive_realizer.scheduler.planning import Plan, Planning
+from reactive_realizer.scheduler.plan import Plan
+from reactive_realizer.scheduler.planning import Planning
 from reactive_realizer.scheduler.predictions import Predictions
 from reactive_realizer.scheduler.problem import Precedence, Tie
 from reactive_realizer.scheduler.solution import Loss

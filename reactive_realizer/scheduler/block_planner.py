@@ -16,11 +16,14 @@ from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
+from reactive_realizer.scheduler.block_problem import BlockProblem, item_of
+from reactive_realizer.scheduler.block_solver import BlockSolver
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Meant
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
 from reactive_realizer.scheduler.lanes import Lane
-from reactive_realizer.scheduler.planning import BlockProblem, Plan, Planning, item_of
+from reactive_realizer.scheduler.plan import Plan
+from reactive_realizer.scheduler.planning import Planning
 from reactive_realizer.scheduler.planning_queue import PlanningQueue
 from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation
 from reactive_realizer.scheduler.problem import Item
@@ -119,6 +122,7 @@ class BlockPlanner:
         routing: EngineRouting,
         blocks: Blocks,
         planning: Planning,
+        solver: BlockSolver,
         procedures: Procedures,
         background: BackgroundWork,
         feedback: BlockFeedback,
@@ -128,6 +132,7 @@ class BlockPlanner:
         self._routing = routing
         self._procedures = procedures
         self._planning = planning
+        self._solver = solver
         self._background = background
         self._feedback = feedback
         self._limits = limits
@@ -237,7 +242,7 @@ class BlockPlanner:
             draft.posed = yield from self._planning.build_problem(block, left, refused)
             yield sum(len(item.points) - 2 for item in left.values())
             plan = yield from self._solve(block, draft, draft.posed)
-            stale = times < _MOST_OFTEN and self._planning.is_stale(draft.posed)
+            stale = times < _MOST_OFTEN and draft.posed.stale
             if stale or not self._holds(block, draft, left):
                 continue
             if any(loss.required for loss in plan.losses):
@@ -265,14 +270,14 @@ class BlockPlanner:
     def _holds(self, block: BMLBlock, draft: _Draft, units: Iterable[PlanUnit]) -> bool:
         """Whether the problem that was posed can still be put on the board."""
         cancelled = any(unit.behavior.id in block.cancelled for unit in units)
-        cyclic = draft.posed is None or self._planning.is_cyclic(block, draft.posed)
+        cyclic = draft.posed is None or draft.posed.depends_on(block.start)
         return not (cancelled or cyclic or draft.renamed or draft.meant != block.meant)
 
     def _solve(self, block: BMLBlock, draft: _Draft, posed: BlockProblem) -> Generator[int, None, Plan]:
         """Solve in steps, or in a thread if these would hold up the event loop."""
         points = sum(len(unit.timing.points) for unit in posed.units)
         if len(posed.units) <= _MOST_AT_ONCE and points <= _MOST_POINTS_AT_ONCE:
-            return (yield from self._planning.solve_in_steps(posed))
+            return (yield from self._solver.solve_in_steps(posed))
         received: list[Result] = []
 
         def receive(result: Result, now: GlobalTime) -> None:
@@ -280,7 +285,7 @@ class BlockPlanner:
             received.append(result)
             self._queue.put_back(block)
 
-        work = asyncio.to_thread(self._planning.solve, posed)
+        work = asyncio.to_thread(self._solver.solve, posed)
         draft.cancel = self._background.request(f"solve {block.key.block}", work, receive)
         self._queue.put_off(block)
         yield 1

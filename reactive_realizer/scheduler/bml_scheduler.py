@@ -18,6 +18,7 @@ from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_lifecycle import BlockLifecycle, BlockListener, PointListener
 from reactive_realizer.scheduler.block_planner import BlockPlanner
+from reactive_realizer.scheduler.block_solver import BlockSolver
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock
@@ -83,12 +84,14 @@ class BMLScheduler:
         self._feedback = BlockFeedback(feedback, self.blocks)
         self._predictions = Predictions(feedback, self.blocks.watch, limits)
         self._procedures = Procedures(routing, background)
-        self._planning = Planning(board, self.blocks, strategy)
+        solver = BlockSolver(strategy)
+        self._planning = Planning(board, self.blocks, solver)
         self._entries = EntryQueue(routing.characters)
         self._planner = BlockPlanner(
             routing,
             self.blocks,
             self._planning,
+            solver,
             self._procedures,
             background,
             self._feedback,
