@@ -44,9 +44,9 @@ class Schema:
         error: ValidationError | None = next(self._validators[definition].iter_errors(value), None)
         if error is None:
             return
-        alternatives = error.context or [error]
-        place = ".".join(map(str, alternatives[0].absolute_path)) or name
-        reasons = [_reason(each) for each in alternatives if each.absolute_path == alternatives[0].absolute_path]
+        errors = _of_alternatives(error) or [error]
+        place = ".".join(map(str, errors[0].absolute_path)) or name
+        reasons = [_reason(each) for each in errors if each.absolute_path == errors[0].absolute_path]
         raise RealizerError(BadMessage(place=place, reason=", or ".join(dict.fromkeys(reasons))))
 
 
@@ -54,6 +54,13 @@ def shown(value: object) -> str:
     """A value as JSON, truncated if it is long."""
     text = "".join(islice(json.JSONEncoder().iterencode(value), _MOST_SHOWN + 1))  # a long one is not written whole
     return text if len(text) <= _MOST_SHOWN else text[:_MOST_SHOWN] + "..."
+
+
+def _of_alternatives(error: ValidationError) -> list[ValidationError]:
+    """The errors of the alternatives whose type the value has; of all alternatives if it has no type of theirs."""
+    errors: list[ValidationError] = list(error.context or ())
+    others = {each.schema_path[0] for each in errors if each.validator == "type" and not each.path}
+    return [each for each in errors if each.schema_path[0] not in others] or errors
 
 
 def _reason(error: ValidationError) -> str:

@@ -84,7 +84,20 @@ def test_every_definition_has_its_own_name_as_title() -> None:
         ),
         (
             {"type": "world", "set": {"bluebox": {"position": [0, 0, 0], "orientation": [1, 0, 0]}}},
-            "set.bluebox: ",
+            "set.bluebox.orientation: [1, 0, 0] does not satisfy minItems 4",
+        ),
+        (
+            {"type": "world", "set": {"bluebox": {"position": [0, 0, 0], "orientation": [1, 0, 0, "up"]}}},
+            'set.bluebox.orientation.3: "up" does not satisfy type "number"',
+        ),
+        (
+            {"type": "world", "set": {"bluebox": {"position": [0, 0], "orientation": [1, 0, 0, 0]}}},
+            "set.bluebox.position: [0, 0] does not satisfy minItems 3",
+        ),
+        ({"type": "world", "set": {"bluebox": {"position": [0, 0, 0]}}}, "set.bluebox: 'orientation' is a required"),
+        (
+            {"type": "world", "set": {"bluebox": "here"}},
+            'set.bluebox: "here" does not satisfy type "array", or "here" does not satisfy type "object", or "here" ',
         ),
         ({"type": "bml"}, "bml: 'xml' is a required property"),
         (
