@@ -2,8 +2,8 @@
 
 import logging
 from collections.abc import Callable, Collection, Sequence
-from math import isfinite
-from typing import ParamSpec, TypeVar
+from math import hypot, isclose, isfinite
+from typing import Final, ParamSpec, TypeVar
 
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.audio import AudioHeard, StreamedAudio
@@ -21,6 +21,9 @@ from reactive_realizer.realizer.prediction_turns import PredictionTurns, Waiting
 P = ParamSpec("P")
 T = TypeVar("T")
 
+_UNIT: Final = 1e-6
+"""Difference of the length of an orientation from 1."""
+
 logger = logging.getLogger(__name__)
 
 
@@ -31,6 +34,14 @@ class TooManyNames(Fault):
     template = "the limit of {limit} {things} has been reached"
     limit: int
     things: str
+
+
+class NotAnOrientation(Fault):
+    """A quaternion that is not of length 1."""
+
+    code = "not-an-orientation"
+    template = "an orientation is a quaternion of length 1, not {length:g}"
+    length: float
 
 
 class Inbox:
@@ -112,10 +123,18 @@ class Inbox:
         return [event for event in events if event is not None]
 
     def apply(self, entries: Sequence[Input]) -> None:
-        """Move targets."""
+        """Move targets; invalid places are skipped."""
         for entry in entries:
             if isinstance(entry, TargetMoved):
-                _try(entry, self._world.move, entry.target, entry.position, entry.orientation)
+                _try(entry, self._move, entry)
+
+    def _move(self, moved: TargetMoved) -> None:
+        numbers = (*(moved.position or ()), *(moved.orientation or ()))
+        if not all(map(isfinite, numbers)):
+            raise RealizerError(NotANumber())
+        if moved.orientation is not None and not isclose(hypot(*moved.orientation), 1.0, abs_tol=_UNIT):
+            raise RealizerError(NotAnOrientation(length=hypot(*moved.orientation)))
+        self._world.move(moved.target, moved.position, moved.orientation)
 
     def _event(self, entry: Input, now: GlobalTime) -> tuple[str, AnticipatorEvent] | None:
         match entry:

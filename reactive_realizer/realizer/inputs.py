@@ -53,12 +53,13 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class TargetMoved:
-    """A new place of a target.
+    """A new place of a target; one with a number that is not finite is skipped, with a log message.
 
     Attributes:
         target: its name.
         position: m, in the world; None if it is removed.
-        orientation: a unit quaternion from its axes to those of the world; None to keep the one that it has.
+        orientation: a unit quaternion from its axes to those of the world; None to keep the one that it has. A place
+            with a quaternion of another length is skipped too.
     """
 
     target: str
