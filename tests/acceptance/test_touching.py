@@ -178,6 +178,38 @@ async def test_a_hold_ends_when_its_hand_is_released_or_used_or_its_block_is_int
     assert gaps(pilot, "r", BOX, 8.5, 9.0).min() > 0.3
 
 
+AHEAD = (0.0, 1.15, 0.4)
+RELEASE = f'<rr:release xmlns:rr="{OWN}" id="e" mode="RIGHT_HAND"/>'
+
+
+async def test_a_hold_of_both_hands_ends_as_a_whole_and_the_release_of_one_says_so(pilot: RealizerPilot) -> None:
+    pilot.move("box", AHEAD)
+    pilot.block("b", reach("hold", 'mode="BOTH_HANDS" ready="1"'))
+    await pilot.advance(3)
+    pilot.block("c", RELEASE)
+    await pilot.advance(3)
+    assert pilot.feedback.time("b:p:end") == pytest.approx(3.0, abs=0.011)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert (warning.id, warning.text) == (
+        "c:e",
+        "line 1, column 153: b:p holds on with both hands, so it ends for both; "
+        "to release them one by one, hold on with each in a pointing of its own",
+    )
+
+
+async def test_hands_that_hold_on_in_pointings_of_their_own_are_released_one_by_one(pilot: RealizerPilot) -> None:
+    pilot.move("box", AHEAD)
+    other = reach("hold", 'mode="LEFT_HAND" ready="1"').replace('"p"', '"q"')
+    pilot.block("b", reach("hold", 'mode="RIGHT_HAND" ready="1"') + other)
+    await pilot.advance(3)
+    pilot.block("c", RELEASE)
+    await pilot.advance(3)
+    assert pilot.feedback.warnings == []
+    assert pilot.feedback.time("b:p:end") == pytest.approx(3.0, abs=0.011)
+    assert not pilot.feedback.reached("b:q:end")
+    assert gaps(pilot, "l", AHEAD, 1.0, 6.0).max() < 3.0 * NEAR
+
+
 async def test_what_uses_the_other_hand_leaves_a_hold(pilot: RealizerPilot) -> None:
     pilot.block("b", reach("hold", 'mode="RIGHT_HAND" ready="1"'))
     await pilot.advance(2)

@@ -51,6 +51,7 @@ from reactive_realizer.engines.animation.fade_out import (
     with_reached_root,
 )
 from reactive_realizer.engines.animation.failure_isolation import FailureIsolation
+from reactive_realizer.engines.animation.faults import EndsForBothHands
 from reactive_realizer.engines.animation.gaze.eye_poser import EyePoser
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
 from reactive_realizer.engines.animation.idle import Idle
@@ -423,13 +424,20 @@ class AnimationEngine(DefaultEngine):
 
     def _note_passed(self, unit: AnimationUnit, sync: str, time: GlobalTime) -> None:
         if isinstance(unit.motion, ReleaseMotionUnit) and sync == "start":
-            holding = (other for other in self._playing() if other.holds_on and other.resources & unit.motion.released)
-            self._released += [EndUnit(other, time) for other in holding]
+            self._end_holds(unit, unit.motion.released, time)
         self._eye_poser.note_change_by(unit, time)
         self._late_hands.note(unit, sync, time)
         if sync == "relax" and unit.motion.kind is LayerKind.GESTURE:
             others = (other for other in self.player.units if isinstance(other, AnimationUnit))
             self._waiting_arms.note_relax(unit, others, time)
+
+    def _end_holds(self, unit: AnimationUnit, released: frozenset[str], time: GlobalTime) -> None:
+        """End the units that hold on to a target with an arm that is released; each ends as a whole."""
+        for hold in (other for other in self._playing() if other.holds_on and other.resources & released):
+            self._released.append(EndUnit(hold, time))
+            if not hold.resources <= released:
+                name = f"{hold.block.block}:{hold.behavior.id}"
+                self._notes.append(Warn(unit, EndsForBothHands(hold=name)))
 
     def _claimed(self, unit: AnimationUnit) -> frozenset[str]:
         """Return the resources that are better left to others.

@@ -186,6 +186,17 @@ class NotTouched(PlayingFault):
     reason: str
 
 
+class EndsForBothHands(PlayingFault):
+    """A hold of both hands of which one is released."""
+
+    code = "ends-for-both-hands"
+    template = (
+        "{hold} holds on with both hands, so it ends for both; "
+        "to release them one by one, hold on with each in a pointing of its own"
+    )
+    hold: str
+
+
 class HandLate(PlayingFault):
     """A hand that is not where its gesture wants it at a sync point; ``distance`` is in cm."""
 
