@@ -456,6 +456,17 @@ class NoCounterpart(Fault):
     attributes: tuple[str, ...]
 
 
+class FadeTooLong(Fault):
+    """A time of SmartBody in which a behavior fades out, in s, that is longer than the behavior."""
+
+    code = "fade-too-long"
+    template = "sbm:{attribute}='{fade:g}' has no effect: this <{element}> would fade out before it starts"
+    warning = WarningType.CUSTOM_ATTRIBUTE_NOT_SUPPORTED
+    element: str
+    attribute: str
+    fade: float
+
+
 class PlaysOver(Fault):
     """A blend of SmartBody that changes the mixture of the one that plays."""
 

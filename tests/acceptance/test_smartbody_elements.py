@@ -181,6 +181,16 @@ async def test_a_gaze_that_fades_out_is_on_its_target_until_then(open_still: Ope
     assert aside[-1] < 0.05
 
 
+@pytest.mark.parametrize("fade", ["2", "5", "1.98"])
+async def test_a_gaze_with_a_fade_that_is_too_long_keeps_its_end(open_still: OpenStill, fade: str) -> None:
+    async with open_still() as pilot:
+        pilot.move("aside", (1.0, 1.6, 1.0))
+        pilot.perform(act(f'<gaze id="g" target="aside" start="1" end="3" sbm:fade-out="{fade}"/>'))
+        await pilot.advance(5)
+    assert len(pilot.feedback.warnings) == 1
+    assert pilot.feedback.time("document1:g:end") == pytest.approx(3.0)
+
+
 async def test_the_posture_of_a_body_may_be_the_first_frame_of_a_motion(open_still: OpenStill, tmp_path: Path) -> None:
     (tmp_path / "Brad@Idle02.skm").write_text(MOTION.replace("kt 0 fr 0 0 -1.5", "kt 0 fr 0 0 -0.9"))
     async with open_still(tmp_path) as pilot:

@@ -1,6 +1,7 @@
 """Attributes of SmartBody: read, taken out of elements, and written as those of BML 1.0 and its extensions."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
@@ -8,8 +9,9 @@ from lxml import etree
 
 from reactive_realizer.bml.attribute_types import Float
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import NoCounterpart
+from reactive_realizer.bml.faults import FadeTooLong, NoCounterpart
 from reactive_realizer.bml.names import BMLT, SBM
+from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import PARAMETER, Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError
 
@@ -85,6 +87,31 @@ def tie(tree: Tree, point: str, other: str, seconds: float) -> None:
     """
     if point not in tree.attrib:
         tree.set(point, f"{tree.get('id', '')}:{other}{seconds:+g}")
+
+
+def fade_out(tree: Tree, name: str, seconds: float, source: BlockSource) -> list[Fault]:
+    """Ties the relax of a behavior before its end, unless it is tied already; the fault of a fade that is too long.
+
+    It is tied to what the end is tied to, so that if they conflict the end keeps its time.
+
+    Args:
+        tree: the behavior, which has an end.
+        name: of the attribute with the time of the fade.
+        seconds: from the relax to the end.
+        source: its block.
+
+    Raises:
+        RealizerError: ``bad-attribute``: its start or end is no reference.
+    """
+    if "relax" in tree.attrib:
+        return []
+    start = source.ref(tree, "start") if "start" in tree.attrib else SyncRef(None, None, None)
+    end = source.ref(tree, "end")
+    relax = replace(end, offset=end.offset - seconds)
+    if replace(relax, offset=start.offset) == start and relax.offset <= start.offset:
+        return [source.located(tree, FadeTooLong(element=name_of(tree), attribute=name, fade=seconds))]
+    tree.set("relax", str(relax))
+    return []
 
 
 def left_out(tree: Tree, source: BlockSource, *names: str) -> list[Fault]:

@@ -6,7 +6,16 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.extensions import WHOLE_FACE
 from reactive_realizer.bml.faults import UnknownWord
 from reactive_realizer.bml.names import BMLT
-from reactive_realizer.bml.smartbody.attributes import drop, left_out, limit_amount, rename, take, take_number, tie
+from reactive_realizer.bml.smartbody.attributes import (
+    drop,
+    fade_out,
+    left_out,
+    limit_amount,
+    rename,
+    take,
+    take_number,
+    tie,
+)
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.errors import Fault, RealizerError
 
@@ -15,11 +24,11 @@ _PEAKS: Final = ("ready", "strokeStart", "stroke_start", "stroke")
 """Points of a face at one of which it is complete: the first one that is tied."""
 _AFTER_PEAK: Final = (*_PEAKS, "strokeEnd", "stroke_end")
 _RAMPS: Final = {
-    "duration": ("end", "start", 1.0),
-    "rampup": ("attackPeak", "start", 1.0),
-    "rampdown": ("relax", "end", -1.0),
+    "duration": ("end", "start"),
+    "rampup": ("attackPeak", "start"),
 }
-"""Times of a face, and the points that they tie: after another one, or before it."""
+"""Times of a face, and the points that they tie after another one."""
+_RAMPDOWN: Final = "rampdown"
 _USUAL_AMOUNT: Final = 0.5
 _VISEMES: Final = {
     word: number
@@ -54,14 +63,25 @@ def adapt_face(tree: Tree, source: BlockSource) -> list[Fault]:
             rename(tree, point, "attackPeak")
     drop(tree, *_AFTER_PEAK)
     amount = limit_amount(tree)
-    for name, (point, other, sign) in _RAMPS.items():
+    for name, (point, other) in _RAMPS.items():
         seconds = take_number(tree, name, source, 0.0, _LONGEST)
         if seconds is not None:
-            tie(tree, point, other, sign * seconds)
-    faults = left_out(tree, source)
+            tie(tree, point, other, seconds)
+    faults = [*_ramp_down(tree, source), *left_out(tree, source)]
     if tree.get("type", "").lower() == "viseme":
         _show_viseme(tree, amount if "amount" in tree.attrib else _USUAL_AMOUNT, source)
     return faults
+
+
+def _ramp_down(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Ties the relax of a face before its end; the fault of a time that is too long."""
+    seconds = take_number(tree, _RAMPDOWN, source, 0.0, _LONGEST)
+    if seconds is None:
+        return []
+    if "end" in tree.attrib:
+        return fade_out(tree, _RAMPDOWN, seconds, source)
+    tie(tree, "relax", "end", -seconds)
+    return []
 
 
 def _show_viseme(tree: Tree, amount: float, source: BlockSource) -> None:

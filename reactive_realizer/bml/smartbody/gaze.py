@@ -7,6 +7,7 @@ from reactive_realizer.bml.attribute_types import Float
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.smartbody.attributes import (
     drop,
+    fade_out,
     give_back,
     left_out,
     rename,
@@ -71,17 +72,17 @@ def adapt_gaze(tree: Tree, source: BlockSource) -> list[Fault]:
     rename(tree, "target-pos", "target")
     if "target" in tree.attrib:
         tree.set("target", target_named(tree.get("target", "")))
-    _tie_times(tree, source)
+    faults = _tie_times(tree, source)
     _limit_speed(tree, source)
     roll = take_number(tree, "roll", source, -_MOST_ROLL, _MOST_ROLL)
     if roll:
         set_parameter(tree, "roll", f"{roll:g}", source)
     drop(tree, "handle", "joint-smooth", "speed-smoothing")
-    return left_out(tree, source)
+    return [*faults, *left_out(tree, source)]
 
 
-def _tie_times(tree: Tree, source: BlockSource) -> None:
-    """Ties the points of a gaze as its fades say.
+def _tie_times(tree: Tree, source: BlockSource) -> list[Fault]:
+    """Ties the points of a gaze as its fades say; the fault of a fade that is too long.
 
     A fade out takes the gaze back before its end or, without a target, to the viewer. Without an end, a gaze at a
     target persists; SmartBody would fade it out while it comes.
@@ -91,7 +92,8 @@ def _tie_times(tree: Tree, source: BlockSource) -> None:
         if time := take_number(tree, name, source, 0.0, _LONGEST):
             tie(tree, "ready", "start", time)
     if aimed and "end" in tree.attrib and (time := take_number(tree, "fade-out", source, 0.0, _LONGEST)):
-        tie(tree, "relax", "end", -time)
+        return fade_out(tree, "fade-out", time, source)
+    return []
 
 
 def _choose_joints(tree: Tree, source: BlockSource) -> None:

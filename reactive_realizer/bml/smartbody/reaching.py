@@ -9,6 +9,7 @@ from reactive_realizer.bml.names import OWN, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     OTHER_POINTS,
     drop,
+    fade_out,
     give_back,
     left_out,
     rename,
@@ -80,10 +81,11 @@ def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
     if fade_in := fades["fade-in"]:
         tie(tree, "ready", "start", fade_in)
     if {"relax", "end"} & set(tree.keys()):
-        if fade_out := fades["fade-out"]:
-            tie(tree, "relax", "end", -fade_out)
         tree.set("start", tree.get("start", "0"))  # the hand stays at its target meanwhile
-    return _go(tree, Reach.HOLD, source)
+    faults: list[Fault] = []
+    if "end" in tree.attrib and (time := fades["fade-out"]):
+        faults = fade_out(tree, "fade-out", time, source)
+    return [*faults, *_go(tree, Reach.HOLD, source)]
 
 
 def is_of_hand(constraint: Tree) -> bool:

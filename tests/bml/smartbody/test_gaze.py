@@ -7,7 +7,7 @@ from reactive_realizer.bml.glance import Glance
 from reactive_realizer.bml.idle_change import IdleChange, IdleParameter
 from reactive_realizer.bml.vocabulary import Influence, OffsetDirection
 
-from .reading import only, told
+from .reading import only, read, told
 
 
 def gaze(attributes: str) -> Gaze:
@@ -89,8 +89,30 @@ def test_a_gaze_without_a_target_fades_out_to_the_viewer() -> None:
 
 def test_a_gaze_at_a_target_fades_out_before_its_end() -> None:
     read = gaze('sbm:fade-out="0.7" end="4"')
-    assert {point: str(ref) for point, ref in read.syncs.items()} == {"end": "4", "relax": "g:end-0.7"}
+    assert {point: str(ref) for point, ref in read.syncs.items()} == {"end": "4", "relax": "3.3"}
+    assert str(gaze('sbm:fade-out="0.7" start="1" end="g:start+3"').syncs["relax"]) == "g:start+2.3"
     assert str(gaze('sbm:fade-out="0.7" relax="2" end="4"').syncs["relax"]) == "2"
+
+
+@pytest.mark.parametrize(
+    ("element", "times"),
+    [
+        ('gaze target="t"', 'start="1" end="3" sbm:fade-out="2"'),
+        ('gaze target="t"', 'end="3" sbm:fade-out="3.5"'),
+        ('gaze target="t"', 'start="s:x" end="s:x+3" sbm:fade-out="5"'),
+        ('sbm:constraint effector="r_wrist" target="t"', 'end="3" sbm:fade-out="3"'),
+        ('face type="facs" au="1"', 'start="1" end="3" sbm:rampdown="2.5"'),
+    ],
+)
+def test_a_fade_that_is_longer_than_its_behavior_is_told_and_the_end_stays(element: str, times: str) -> None:
+    speech = '<speech id="s"><text>Look <sync id="x"/>here</text></speech>'
+    parsed = read(f'<act><bml>{speech}<{element} id="g" {times}/></bml></act>')
+    (sentence,) = (each.fault.sentence for each in parsed.problems)
+    assert sentence.endswith("would fade out before it starts")
+    assert parsed.block is not None
+    (syncs,) = (each.syncs for each in parsed.block.behaviors if each.id == "g")
+    assert "relax" not in syncs
+    assert str(syncs["end"]) in {"3", "s:x+3"}
 
 
 @pytest.mark.parametrize("joints", ["", 'sbm:joint-range="NECK EYES"', 'sbm:joint-range="EYES CHEST"'])

@@ -72,7 +72,7 @@ def test_a_constraint_of_a_wrist_holds_its_target_with_that_hand_until_its_end()
     assert {point: str(ref) for point, ref in touch.syncs.items()} == {
         "end": "4",
         "ready": "c:start+0.5",
-        "relax": "c:end-1",
+        "relax": "3",
         "start": "0",
     }
 

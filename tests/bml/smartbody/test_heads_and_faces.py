@@ -75,7 +75,7 @@ def test_ramps_of_a_face_tie_its_points() -> None:
     assert isinstance(face, FaceFacs)
     assert {point: str(ref) for point, ref in face.syncs.items()} == {
         "attackPeak": "f:start+0.2",
-        "relax": "f:end-0.4",
+        "relax": "f:start+1.6",
         "end": "f:start+2",
     }
 
