@@ -2,11 +2,14 @@
 
 import asyncio
 import json
+import os
 import shlex
 from abc import ABC, abstractmethod
 from asyncio.subprocess import PIPE, Process
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from itertools import count
+from signal import SIGKILL, SIGTERM
 from types import MappingProxyType
 from typing import Any, ClassVar, Final, Self
 
@@ -22,6 +25,10 @@ _SENT: Final = ("bml", "act")
 """Elements that are sent to a realizer; a program that sends them back is no realizer."""
 _LONGEST_LINE = 16_000_000
 """Bytes."""
+_MOST_MESSAGES: Final = 10_000
+"""For one part of a case; a realizer that predicts 100 times in a second sends a tenth of that."""
+_END: Final = 2.0
+"""Time limit for the end of a program, s."""
 
 
 class Connection(ABC):
@@ -72,6 +79,7 @@ class Connection(ABC):
         self.feedback = FeedbackList()
         self.mistakes = []
         self._silent = True
+        self._said = ""
 
     def check_alive(self) -> None:
         """Checks that any feedback was received since `forget`.
@@ -84,32 +92,42 @@ class Connection(ABC):
             raise self._not_reached(f"it was sent a block, but sent no feedback for {self._limit:g} s{instead}")
 
     async def until(self, condition: Callable[[], bool]) -> bool:
-        """Receives messages until a condition holds; returns whether it held in time."""
+        """Receives messages until a condition holds; returns whether it held in time.
+
+        Raises:
+            RealizerError: "not-reached": there are too many messages.
+        """
         try:
             async with asyncio.timeout(self._limit):
                 while not condition():
                     await self._receive()
+                    self._check_number()
+                    await asyncio.sleep(0)  # while messages wait to be read, nothing else lets the time run out
         except TimeoutError:
             return False
         return True
 
+    def _check_number(self) -> None:
+        if len(self.feedback.raw) + len(self.mistakes) > _MOST_MESSAGES:
+            reason = f"it sends more than {_MOST_MESSAGES} messages for a case, the last one '{self._said}'"
+            raise self._not_reached(reason)
+
     def _add(self, time: float, xml: str) -> None:
+        self._note(xml)
         try:
             kind = etree.QName(etree.fromstring(xml)).localname
         except etree.XMLSyntaxError as problem:
             self.mistakes.append(f"feedback that is not XML: {problem}")
-            self._note_other(xml)
             return
         if kind in _SENT:
             self.mistakes.append(f"<{kind}> is not feedback")
-            self._note_other(xml)
             return
         self.feedback.add(time, xml)
         self._silent = False
         self._limit = self._patience
 
-    def _note_other(self, text: str) -> None:
-        """Remembers what was received instead of feedback."""
+    def _note(self, text: str) -> None:
+        """Remembers the last message, for a realizer that does not send what it should."""
         self._said = quoted(text)
 
 
@@ -153,6 +171,7 @@ class SocketConnection(Connection):
             case {"type": "error"}:
                 pass
             case _:
+                self._note(json.dumps(message))
                 self.mistakes.append(f"unexpected message {json.dumps(message)[:200]}")
 
     def _not_reached(self, reason: str) -> RealizerError:
@@ -179,16 +198,28 @@ class ProgramConnection(Connection):
         try:
             program, *arguments = shlex.split(self._command)
             self._process: Process = await asyncio.create_subprocess_exec(
-                program, *arguments, stdin=PIPE, stdout=PIPE, limit=_LONGEST_LINE
+                program, *arguments, stdin=PIPE, stdout=PIPE, limit=_LONGEST_LINE, process_group=0
             )
         except (OSError, ValueError) as problem:
             raise self._not_reached(str(problem)) from problem
         return self
 
     async def __aexit__(self, *_: object) -> None:
-        if self._process.returncode is None:
-            self._process.terminate()
-        await self._process.communicate()
+        for signal in (SIGTERM, SIGKILL):
+            if self._process.returncode is None:
+                os.killpg(self._process.pid, signal)  # with the programs that it has started
+            with suppress(TimeoutError):
+                async with asyncio.timeout(_END):
+                    return await self._finish()
+
+    async def _finish(self) -> None:
+        """Waits for the end of the program; what it still writes is read, but not kept."""
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.close()
+        while await self._process.stdout.read(_LONGEST_LINE):
+            pass
+        await self._process.wait()
 
     async def send(self, xml: str) -> bool:
         """Writes a document in a line."""
@@ -212,7 +243,7 @@ class ProgramConnection(Connection):
         if text.startswith("<"):
             self._add(self._clock(), text)
         else:
-            self._note_other(text)
+            self._note(text)
 
     def _not_reached(self, reason: str) -> RealizerError:
         return RealizerError(NotReached(url=self._command, reason=reason))

@@ -69,6 +69,8 @@ class FeedbackList:
         self.raw: list[str] = []
         self._messages: list[FeedbackMessage] = []
         self._unread: list[Report] = []
+        self._progress: list[str] = []
+        self._progress_of = 0
 
     def __call__(self, report: Report) -> None:
         """Adds a report; it is parsed only when it is read, so that ticks take no time for it."""
@@ -87,6 +89,8 @@ class FeedbackList:
         self.raw.clear()
         self._messages.clear()
         self._unread.clear()
+        self._progress.clear()
+        self._progress_of = 0
 
     def add(self, time: float, xml: str) -> None:
         """Adds a message that was sent at a time, s.
@@ -104,7 +108,12 @@ class FeedbackList:
     @property
     def progress(self) -> list[str]:
         """The ids of block and sync point progress, in order."""
-        return [message.id for message in self.messages if message.kind in ("blockProgress", "syncPointProgress")]
+        messages = self.messages
+        for message in messages[self._progress_of :]:
+            if message.kind in ("blockProgress", "syncPointProgress"):
+                self._progress.append(message.id)
+        self._progress_of = len(messages)
+        return self._progress.copy()
 
     def time(self, id_: str) -> float:
         """The global time at which a block or sync point was reached, s.

@@ -136,6 +136,26 @@ async def test_the_exit_status_is_2_if_the_program_cannot_be_tested(
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    "program",
+    [
+        "yes '<feedback/>'",
+        "yes '<syncPointProgress id=\"b:w:start\"/>'",
+        "yes '<oops'",
+        "sh -c 'yes \"<feedback/>\" | cat'",
+        'sh -c \'trap "" TERM; yes "<feedback/>"\'',
+    ],
+    ids=["unknown feedback", "progress", "no XML", "by another program", "unwilling to end"],
+)
+async def test_the_exit_status_is_2_soon_if_the_program_never_stops_to_send(
+    capsys: pytest.CaptureFixture[str], program: str
+) -> None:
+    async with asyncio.timeout(15):
+        assert await conformance("--program", program, "--start", "20") == 2
+    sent = "'<oops'" if "oops" in program else "'<"
+    assert f"it sends more than 10000 messages for a case, the last one {sent}" in capsys.readouterr().err
+
+
 async def test_the_exit_status_is_2_if_the_program_says_nothing(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
