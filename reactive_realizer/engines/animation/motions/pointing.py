@@ -24,7 +24,6 @@ from reactive_realizer.engines.animation.motion_unit import (
     arms_used,
 )
 from reactive_realizer.engines.animation.motions.gesture import HOLD, HOLD_RANGE
-from reactive_realizer.engines.animation.motions.grip import Grip
 from reactive_realizer.engines.animation.motions.pointing_arm import ArmPose, PointingArm
 from reactive_realizer.engines.animation.motions.reaching import (
     gesture_key_positions,
@@ -33,7 +32,7 @@ from reactive_realizer.engines.animation.motions.reaching import (
     sigmoid_profile,
 )
 from reactive_realizer.engines.animation.motions.rotation_curves import GrowingArcs
-from reactive_realizer.engines.animation.motions.touching_arm import TouchingArm
+from reactive_realizer.engines.animation.motions.touching_arm import Grip, TouchingArm
 from reactive_realizer.engines.animation.spine_ik import HandGoal, leant
 from reactive_realizer.engines.animation.walking.manner import stepping_time
 from reactive_realizer.errors import Fault
