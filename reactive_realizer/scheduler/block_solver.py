@@ -2,13 +2,14 @@
 
 import logging
 from collections.abc import Generator, Sequence
+from collections.abc import Set as AbstractSet
 from typing import TypeVar
 
 from reactive_realizer.scheduler.block_problem import BlockProblem
 from reactive_realizer.scheduler.faults import WorkFailed
-from reactive_realizer.scheduler.following_outside import following_outside
+from reactive_realizer.scheduler.offset_union_find import OffsetUnionFind
 from reactive_realizer.scheduler.plan import Plan
-from reactive_realizer.scheduler.problem import Precedence, Tie
+from reactive_realizer.scheduler.problem import Node, Origin, Point, Precedence, SchedulingProblem, Tie
 from reactive_realizer.scheduler.solution import Loss, Solution
 from reactive_realizer.scheduler.strategy import SchedulingStrategy, solve
 from reactive_realizer.scheduler.takeovers import takeovers
@@ -40,7 +41,7 @@ class BlockSolver:
         plan = yield from self._solve(posed)
         posed, problem = plan.posed, plan.posed.problem
         if not plan.solution.losses:
-            loosened = posed.loosened(following_outside(problem), problem.constraints)
+            loosened = posed.loosened(_following_outside(problem), problem.constraints)
             return plan if loosened is None else Plan(loosened, plan.solution)
         stretched = yield from self._stretched(posed, problem.constraints, len(plan.losses) - 1)
         if stretched is not None and stretched.solution.losses:
@@ -87,6 +88,22 @@ class BlockSolver:
                 continue
             lost = {loss.constraint for loss in taking.solution.losses}
             refused.update(wanted.keys() & lost or wanted)
+
+
+def _following_outside(problem: SchedulingProblem) -> AbstractSet[str]:
+    """The behaviors of which a point after the first is tied, directly or through others, to a time from outside."""
+    cells = [node for each in problem.ties for node in each.nodes if not isinstance(node, Point | Origin)]
+    if not cells:
+        return frozenset()
+    groups = OffsetUnionFind[Node](cells)
+    for tie in problem.ties:
+        for node in tie.nodes:
+            groups.add(node)
+        groups.union(*tie.nodes)
+    outside = {groups.find(cell)[0] for cell in cells}
+    later = {point for item in problem.items for point in item.points[1:]}
+    named = {node for tie in problem.ties for node in tie.nodes if node in later and groups.find(node)[0] in outside}
+    return {node.behavior for node in named if isinstance(node, Point)}
 
 
 def _at_once(steps: Generator[int, None, T]) -> T:
