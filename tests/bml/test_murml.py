@@ -318,6 +318,7 @@ def test_superposed_frames_of_a_face_replace_others_with_a_note() -> None:
     ("attributes", "wrong", "sentence"),
     [
         ('easescale="steep"', "", "easescale='steep' of <keyframing>: not a finite number"),
+        ('applymode="superposed"', "", "applymode='superposed' of <keyframing>: not one of exclusive, superpose"),
         ('easeturningpoint="2"', "", "easeturningpoint='2' of <keyframing>: not between 0 and 1"),
         ("", f"<frame>{POSTURE}</frame>", "<frame> requires the attribute 'ftime'"),
         ("", f'<frame ftime="0.5">{POSTURE}</frame>', "is not after the one before it, at 1"),

@@ -2,9 +2,10 @@
 
 import re
 from collections.abc import Callable
+from enum import StrEnum
 from typing import Final, Protocol, TypeVar
 
-from reactive_realizer.bml.attribute_types import Boolean, Float
+from reactive_realizer.bml.attribute_types import Boolean, Enumeration, Float
 from reactive_realizer.bml.faults import BadAttribute, BeyondLimit, GivenTwice, MissingAttribute, UnknownElement
 from reactive_realizer.bml.murml.description import Frame, Keyframing
 from reactive_realizer.bml.murml.faults import BadPosture, FrameTooEarly, NothingToPlay
@@ -23,6 +24,11 @@ _PART: Final = re.compile(r"\(([^()]*)\)|([^\s()]+)")
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
+
+
+class _ApplyMode(StrEnum):
+    EXCLUSIVE = "exclusive"
+    SUPERPOSE = "superpose"
 
 
 class _Type(Protocol[T_co]):
@@ -52,7 +58,7 @@ def read_keyframing(tree: Tree, locate: Callable[[Tree], Location], notes: list[
         reader.value(tree, "easescale", _STEEPNESS, 1.0),
         reader.value(tree, "easeturningpoint", _SHARE, 0.5),
         not reader.value(tree, "dont_insert_startframe", Boolean(), False),
-        tree.get("applymode", "exclusive").lower() == "superpose",
+        reader.value(tree, "applymode", Enumeration(_ApplyMode), _ApplyMode.EXCLUSIVE) is _ApplyMode.SUPERPOSE,
     )
 
 
