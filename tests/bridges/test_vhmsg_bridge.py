@@ -127,6 +127,7 @@ def test_a_request_without_one_of_its_parts_is_logged(toolkit: Toolkit, caplog: 
         (["pawn cup init"], [0.0, 0.0, 0.0]),
         (["set pawn cup world_offset x 1 y -2 z 3.5"], [1.0, -2.0, 3.5]),
         (["pawn cup init loc 1 2 3", "set pawn cup world-offset y 5"], [1.0, 5.0, 3.0]),
+        (["pawn cup init geom sphere"], [0.0, 0.0, 0.0]),
     ],
 )
 def test_a_pawn_that_is_placed_is_a_target(toolkit: Toolkit, commands: list[str], place: list[float]) -> None:
@@ -164,6 +165,42 @@ def test_a_pawn_that_cannot_be_placed_is_logged(toolkit: Toolkit, caplog: pytest
     with caplog.at_level(logging.WARNING):
         assert toolkit.bridge.take(VhMessage("sbm", f"pawn cup init loc {place}")) is None
     assert "a pawn cannot be placed: could not convert" in caplog.text
+
+
+@pytest.mark.parametrize("place", ["loc 1 2", "loc 1", "loc", "geom sphere loc 1 2"])
+def test_a_pawn_with_too_few_numbers_is_not_placed_and_logged(
+    toolkit: Toolkit, caplog: pytest.LogCaptureFixture, place: str
+) -> None:
+    assert toolkit.bridge.take(VhMessage("sbm", f"pawn cup init {place}")) is None
+    assert caplog.messages == [f"a pawn cannot be placed: loc requires three numbers: pawn cup init {place}"]
+
+
+@pytest.mark.parametrize(
+    ("offsets", "reason"),
+    [
+        ("x 1 y 2 h", "'h' has no value"),
+        ("h x 1 y 2", "'h' has no value"),
+        ("x 1 h y 2", "'h' has no value"),
+        ("x 1 q 3 y 2", "there is no coordinate 'q'; known: x, y, z, h, p, r"),
+        ("x 1 xy 3 y 2", "there is no coordinate 'xy'; known: x, y, z, h, p, r"),
+        ("x 1 z far y 2", "could not convert string to float: 'far'"),
+        ("x 1 z inf y 2", "could not convert to a finite number: 'inf'"),
+    ],
+)
+def test_an_offset_that_cannot_be_read_is_logged_and_the_others_count(
+    toolkit: Toolkit, caplog: pytest.LogCaptureFixture, offsets: str, reason: str
+) -> None:
+    moved = toolkit.bridge.take(VhMessage("sbm", f"set pawn cup world_offset {offsets}"))
+    assert moved == {"type": "world", "set": {"cup": [1.0, 2.0, 0.0]}}
+    assert caplog.messages == [f"an offset of the pawn 'cup' is left out: {reason}"]
+
+
+@pytest.mark.parametrize("offsets", ["", " ", " h"])
+def test_a_pawn_without_an_offset_stays_and_is_logged(
+    toolkit: Toolkit, caplog: pytest.LogCaptureFixture, offsets: str
+) -> None:
+    assert toolkit.bridge.take(VhMessage("sbm", f"set pawn cup world_offset{offsets}")) is None
+    assert "a pawn cannot be placed: world_offset has no coordinate that can be read: set pawn cup" in caplog.text
 
 
 def test_it_answers_a_call_of_all_components(toolkit: Toolkit) -> None:
