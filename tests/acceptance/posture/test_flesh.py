@@ -6,6 +6,8 @@ import pytest
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.clearance import MARGIN, Clearance
+from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.quaternion import rotation_vector
 from reactive_realizer.testing.motion_laws import accelerations, hand_depth
 from reactive_realizer.testing.pilot import RealizerPilot
 
@@ -47,6 +49,19 @@ async def test_no_hand_passes_through_a_thigh(alternating: RealizerPilot, stance
     await alternating.advance(6)
     assert alternating.feedback.reached("b:p:end")
     assert deepest_in_legs(alternating.bodies()[::2]) < SOFT
+
+
+@pytest.mark.parametrize("stance", ["SITTING", "CROUCHING"])
+async def test_no_elbow_bends_backward_while_a_figure_sinks_and_its_hands_go_to_its_hips(
+    either: RealizerPilot, stance: str
+) -> None:
+    either.watch()
+    either.block("b", f'<posture id="p" start="0" end="5"><stance type="{stance}"/>{AKIMBO}</posture>')
+    await either.advance(6)
+    assert either.feedback.reached("b:p:end")
+    bodies, (figure, *_) = either.bodies(), either.realizer.characters.values()
+    assert max(rotation_vector(body.rotation(f"{side}_elbow"))[0] for body in bodies for side in SIDES) < 0.0
+    assert hand_depth(bodies, figure.humanoid.avatar) < IN_FLESH
 
 
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING", "CROUCHING", "LYING"])

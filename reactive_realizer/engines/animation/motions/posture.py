@@ -13,7 +13,7 @@ from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
-from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.embodiment.vector import ZERO, Vec3, distance, scale
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import WrongElement
 from reactive_realizer.engines.animation.keyframe.clip_files import preload_clip
@@ -27,7 +27,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     Predictability,
     Resource,
 )
-from reactive_realizer.engines.animation.posture.detour import Detour, detour
+from reactive_realizer.engines.animation.posture.detour import PARTS, Detour, detour, goes_straight
 from reactive_realizer.engines.animation.posture.posture_library import PART_JOINTS, BodyPosture
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import from_rest, lag, moving_time
@@ -52,6 +52,9 @@ _SWING = {
 
 _MIDWAY = (0.25, 0.5, 0.75)
 """Shares of the way at which a detour is measured."""
+
+_BENT = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
+"""Shares of the way at which a detour and a bend together are largest."""
 
 _THERE_AND_BACK = MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0})
 """A quarter to come, half to stay, a quarter to go."""
@@ -128,6 +131,25 @@ class PostureMotionUnit(MotionUnit):
         self._detour = Detour()
         if not self.joints.isdisjoint(_SWING):
             self._detour = detour(self._from, self.body.posed(self._goal, self._root), self._rest.clear)
+        self._bends = self._limited_bends()
+
+    def _limited_bends(self) -> dict[str, Vec3]:
+        """Return how the trunk bows and the arms swing while the pelvis moves by half a meter, Euler angles, rad.
+
+        They are smaller where a joint would go the other way round: an elbow that is bent in the posture, too, would
+        bend backward.
+        """
+        bends = (_BOW | _SWING).items()
+        return {joint: self._limited_bend(joint, bend) for joint, bend in bends if joint in self._goal}
+
+    def _limited_bend(self, joint: str, bend: Vec3) -> Vec3:
+        for part in PARTS:
+            smaller = scale(bend, part)
+            bent = ((weight, {joint: self._bent(joint, smaller, weight)}) for weight in _BENT)
+            goals = (self._detour.turned(goal, weight)[joint] for weight, goal in bent)
+            if goes_straight(self._from.rotation(joint), self._goal[joint], goals):
+                return smaller
+        return ZERO
 
     def _named_joints(self) -> frozenset[str]:
         """Return the joints that the behavior names; postures that play below do not show through them."""
@@ -158,6 +180,7 @@ class PostureMotionUnit(MotionUnit):
             self._update_goal(self._rest.posture)
         if self._root is not None:
             self._sinking = abs(self._root[1] - body.root[1])
+            self._bends = self._limited_bends()
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the posture, weighted by the phase."""
@@ -173,12 +196,14 @@ class PostureMotionUnit(MotionUnit):
         return True
 
     def _bowed(self, weight: float) -> Mapping[str, Quat]:
-        bow = 2.0 * self._sinking * 4.0 * weight * (1.0 - weight)
-        if bow == 0.0:
+        if not self._sinking:
             return self._goal
-        turns = {joint: turn for joint, turn in (_BOW | _SWING).items() if joint in self._goal}
-        bends = {joint: from_euler(*(bow * angle for angle in turn)) for joint, turn in turns.items()}
-        return {**self._goal, **{joint: multiply(bend, self._goal[joint]) for joint, bend in bends.items()}}
+        return {**self._goal, **{joint: self._bent(joint, bend, weight) for joint, bend in self._bends.items()}}
+
+    def _bent(self, joint: str, bend: Vec3, weight: float) -> Quat:
+        """Return the goal of a joint that bends further at a weight of the goal, most of all midway."""
+        bow = 2.0 * self._sinking * 4.0 * weight * (1.0 - weight)
+        return multiply(from_euler(*scale(bend, bow)), self._goal[joint])
 
 
 class PostureMaker:

@@ -1,7 +1,7 @@
 """The way of the arms around the body when they go from one pose to another."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
@@ -38,6 +38,9 @@ _AWAY = 0.02
 
 _LARGEST = (0.01, 0.1, 0.33, 0.6)
 """Weights at which the detour of the goal is largest."""
+
+PARTS = (1.0, 0.8, 0.6, 0.4, 0.2)
+"""Parts of a turn that are tried where the whole one is too much for a joint."""
 
 _Turns = Mapping[str, Vec3]
 
@@ -81,12 +84,17 @@ class Detour(NamedTuple):
 
     def _limited(self, joint: str, begin: Body, goal: Body) -> Vec3:
         turn, start, end = self.turns[joint], begin.rotation(joint), goal.rotation(joint)
-        same = math.copysign(1.0, _product(start, end))
-        for part in (1.0, 0.8, 0.6, 0.4, 0.2):
+        for part in PARTS:
             ways = (from_rotation_vector(scale(turn, part * self.share(weight))) for weight in _LARGEST)
-            if all(same * _product(start, multiply(end, way)) > _HALF_A_TURN for way in ways):
+            if goes_straight(start, end, (multiply(end, way) for way in ways)):
                 return scale(turn, part)
         return ZERO
+
+
+def goes_straight(start: Quat, end: Quat, goals: Iterable[Quat]) -> bool:
+    """Return whether a joint that goes from start to end turns the same way round as long as it has other goals."""
+    same = math.copysign(1.0, _product(start, end))
+    return all(same * _product(start, goal) > _HALF_A_TURN for goal in goals)
 
 
 @lru_cache(64)
