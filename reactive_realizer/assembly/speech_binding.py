@@ -1,5 +1,6 @@
 """Reads AsapRealizer's speech bindings: the motion of joints for each viseme (thesis 8.10, SpeechBinding)."""
 
+import logging
 import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -13,6 +14,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.quaternion import angle, rotation_vector
 from reactive_realizer.embodiment.turn_weights import turn_weights, weights_of_joint
+from reactive_realizer.engines.animation.motion_parameters import listed
 from reactive_realizer.engines.animation.procedural.procedural_animation_reader import read_procedural_animation
 
 _NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
@@ -31,12 +33,14 @@ _WIDEST: Final = math.radians(45.0)
 _TIME: Final = 0.06
 """Time constant of the articulator before and after a sound, s."""
 
+logger = logging.getLogger(__name__)
+
 
 def read_speech_binding(path: Path, asset: Callable[[str], Path], humanoid: Humanoid) -> MouthTables:
     """Read a binding.
 
     The turns of a viseme are the widest pose of its motion, and visemes without an entry are the mouth at rest. All
-    joints of the file are one part of the mouth.
+    joints of the file are one part of the mouth. Parameters that a motion does not have are logged.
 
     Args:
         path: of the file.
@@ -86,6 +90,10 @@ def _widest(
     rest = Body(humanoid.avatar.skeleton)
     animation = read_procedural_animation(asset(attribute(motion, "file"))).fitted_to(rest.skeleton)
     given = {attribute(each, "name"): number(each, "value") for each in entry.iterfind("parameterdefaults/*")}
+    if unknown := given.keys() - animation.parameters:
+        lacks, has = listed(unknown), listed(animation.parameters) or "none"
+        place = f"{Path(entry.base or '').name}, line {entry.sourceline}"
+        logger.warning("%s: the motion of this entry has no parameter %s; it has %s", place, lacks, has)
     parameters = animation.values(given)
     poses = [animation.sample(step / _PHASES, parameters, rest).rotations for step in range(_PHASES + 1)]
     widest = max(poses, key=lambda pose: max(map(angle, pose.values()), default=0.0))

@@ -82,3 +82,13 @@ async def test_a_binding_for_joints_that_the_avatar_lacks_is_an_error(tmp_path: 
     with pytest.raises(RealizerError, match="it turns no joint of the figure"):
         async with open_pilot(SceneOptions(human, "text", (tmp_path,))):
             pass
+
+
+async def test_a_parameter_that_the_motion_lacks_is_logged(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    misspelled = viseme(2, 1).replace(
+        "<parameterdefault ", '<parameterdefault name="ampl" value="1"/><parameterdefault '
+    )
+    human = human_file(tmp_path, viseme(21, 0), misspelled)
+    async with open_pilot(SceneOptions(human, "text", (tmp_path,))):
+        pass
+    assert "speechbinding.xml, line 3: the motion of this entry has no parameter ampl; it has a" in caplog.text
