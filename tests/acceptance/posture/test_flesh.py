@@ -14,7 +14,9 @@ from reactive_realizer.testing.pilot import RealizerPilot
 from .flesh import deepest_in_each_other, deepest_in_legs, deepest_in_trunk
 from .standing import CROSSED
 
+STANDING, SITTING, CROUCHING = (f'<stance type="{stance}"/>' for stance in ("STANDING", "SITTING", "CROUCHING"))
 AKIMBO = '<pose part="ARMS" lexeme="ARMS_AKIMBO"/>'
+SPREAD = '<pose part="ARMS" lexeme="ARMS_SPREAD"/>'
 
 SOFT = 0.03
 """m that one limb may be in another: flesh and clothes give way, and a hand that lies on a thigh touches it."""
@@ -51,12 +53,17 @@ async def test_no_hand_passes_through_a_thigh(alternating: RealizerPilot, stance
     assert deepest_in_legs(alternating.bodies()[::2]) < SOFT
 
 
-@pytest.mark.parametrize("stance", ["SITTING", "CROUCHING"])
-async def test_no_elbow_bends_backward_while_a_figure_sinks_and_its_hands_go_to_its_hips(
-    either: RealizerPilot, stance: str
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [(STANDING, CROUCHING + AKIMBO), (STANDING, SITTING + AKIMBO), (SITTING + SPREAD, CROUCHING)],
+    ids=["crouches, hands to the hips", "sits down, hands to the hips", "gets from a seat, arms spread"],
+)
+async def test_no_elbow_bends_backward_while_a_figure_sinks_or_rises(
+    either: RealizerPilot, before: str, after: str
 ) -> None:
-    either.watch()
-    either.block("b", f'<posture id="p" start="0" end="5"><stance type="{stance}"/>{AKIMBO}</posture>')
+    either.block("first", f'<postureShift id="s">{before}</postureShift>')
+    await either.advance(3)
+    either.block("b", f'<posture id="p" start="0" end="5">{after}</posture>')
     await either.advance(6)
     assert either.feedback.reached("b:p:end")
     bodies, (figure, *_) = either.bodies(), either.realizer.characters.values()

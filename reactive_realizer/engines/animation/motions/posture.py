@@ -1,7 +1,7 @@
 """Postures as motions: taking a posture, and leaving it."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -11,9 +11,8 @@ from reactive_realizer.bml.vocabulary import PosePart, StanceType
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
-from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply
 from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
-from reactive_realizer.embodiment.vector import ZERO, Vec3, distance, scale
+from reactive_realizer.embodiment.vector import Vec3, distance, scale
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import WrongElement
 from reactive_realizer.engines.animation.keyframe.clip_files import preload_clip
@@ -27,7 +26,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     Predictability,
     Resource,
 )
-from reactive_realizer.engines.animation.posture.detour import PARTS, Detour, detour, goes_straight
+from reactive_realizer.engines.animation.posture.detour import Detour, detour
 from reactive_realizer.engines.animation.posture.posture_library import PART_JOINTS, BodyPosture
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import from_rest, lag, moving_time
@@ -52,9 +51,6 @@ _SWING = {
 
 _MIDWAY = (0.25, 0.5, 0.75)
 """Shares of the way at which a detour is measured."""
-
-_BENT = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
-"""Shares of the way at which a detour and a bend together are largest."""
 
 _THERE_AND_BACK = MappingProxyType({"start": 0.0, "ready": 0.25, "relax": 0.75, "end": 1.0})
 """A quarter to come, half to stay, a quarter to go."""
@@ -127,29 +123,19 @@ class PostureMotionUnit(MotionUnit):
         self.joints = frozenset(turned)
         self._goal = {joint: self.body.rotation(joint) for joint in turned}
         self._root = None if turned.isdisjoint(PART_JOINTS[PosePart.LEGS]) else self.body.root
-        self._sinking = abs(self.body.root[1] - self._from.root[1])
-        self._detour = Detour()
-        if not self.joints.isdisjoint(_SWING):
-            self._detour = detour(self._from, self.body.posed(self._goal, self._root), self._rest.clear)
-        self._bends = self._limited_bends()
+        bends = self._bends(self._from)
+        if self.joints.isdisjoint(_SWING):
+            self._detour = Detour(bends).limited(self._from, self.body)
+        else:
+            goal = self.body.posed(self._goal, self._root)
+            self._detour = detour(self._from, goal, self._rest.clear, tuple(bends.items()))
 
-    def _limited_bends(self) -> dict[str, Vec3]:
-        """Return how the trunk bows and the arms swing while the pelvis moves by half a meter, Euler angles, rad.
-
-        They are smaller where a joint would go the other way round: an elbow that is bent in the posture, too, would
-        bend backward.
-        """
-        bends = (_BOW | _SWING).items()
-        return {joint: self._limited_bend(joint, bend) for joint, bend in bends if joint in self._goal}
-
-    def _limited_bend(self, joint: str, bend: Vec3) -> Vec3:
-        for part in PARTS:
-            smaller = scale(bend, part)
-            bent = ((weight, {joint: self._bent(joint, smaller, weight)}) for weight in _BENT)
-            goals = (self._detour.turned(goal, weight)[joint] for weight, goal in bent)
-            if goes_straight(self._from.rotation(joint), self._goal[joint], goals):
-                return smaller
-        return ZERO
+    def _bends(self, begin: Body) -> dict[str, Vec3]:
+        """Return how the trunk bows and the arms swing midway from a body, Euler angles, rad."""
+        if self._root is None:
+            return {}
+        bow = 2.0 * abs(self._root[1] - begin.root[1])
+        return {joint: scale(angles, bow) for joint, angles in (_BOW | _SWING).items() if joint in self._goal}
 
     def _named_joints(self) -> frozenset[str]:
         """Return the joints that the behavior names; postures that play below do not show through them."""
@@ -167,11 +153,8 @@ class PostureMotionUnit(MotionUnit):
 
     def _midway(self, begin: Body) -> list[Body]:
         """Return bodies on the way from a body, with its root, if the arms make a detour."""
-        layers = (
-            Layer(self.kind, self._detour.turned(self._goal, weight), weight)
-            for weight in _MIDWAY
-            if self._detour.turns
-        )
+        arms = self._detour._replace(bends={})
+        layers = (Layer(self.kind, arms.turned(self._goal, weight), weight) for weight in _MIDWAY if arms.turns)
         return [over(begin, layer) for layer in layers]
 
     def start(self, body: Body) -> None:
@@ -179,8 +162,7 @@ class PostureMotionUnit(MotionUnit):
         if self._rest.posture != self._base:
             self._update_goal(self._rest.posture)
         if self._root is not None:
-            self._sinking = abs(self._root[1] - body.root[1])
-            self._bends = self._limited_bends()
+            self._detour = self._detour._replace(bends=self._bends(body)).limited(self._from, self.body)
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the posture, weighted by the phase."""
@@ -188,22 +170,12 @@ class PostureMotionUnit(MotionUnit):
         arrived = minimum_jerk(share(phase, 0.0, self._ready))
         left = minimum_jerk(share(phase, self._relax, 1.0)) if phase > self._relax else 0.0
         weight = arrived * (1.0 - left)
-        return MotionPose(self._detour.turned(self._bowed(weight), weight), weight, self._root)
+        return MotionPose(self._detour.turned(self._goal, weight), weight, self._root)
 
     def becomes_rest(self) -> bool:
         """A shift becomes the rest posture."""
         self._rest.adopt(self.posture, self.body)
         return True
-
-    def _bowed(self, weight: float) -> Mapping[str, Quat]:
-        if not self._sinking:
-            return self._goal
-        return {**self._goal, **{joint: self._bent(joint, bend, weight) for joint, bend in self._bends.items()}}
-
-    def _bent(self, joint: str, bend: Vec3, weight: float) -> Quat:
-        """Return the goal of a joint that bends further at a weight of the goal, most of all midway."""
-        bow = 2.0 * self._sinking * 4.0 * weight * (1.0 - weight)
-        return multiply(from_euler(*scale(bend, bow)), self._goal[joint])
 
 
 class PostureMaker:

@@ -1,7 +1,7 @@
 """The way of the arms around the body when they go from one pose to another."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
@@ -13,6 +13,7 @@ from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.quaternion import (
     Quat,
     difference,
+    from_euler,
     from_rotation_vector,
     multiply,
     rotation_vector,
@@ -39,8 +40,10 @@ _AWAY = 0.02
 _LARGEST = (0.01, 0.1, 0.33, 0.6)
 """Weights at which the detour of the goal is largest."""
 
-PARTS = (1.0, 0.8, 0.6, 0.4, 0.2)
+_PARTS = (1.0, 0.8, 0.6, 0.4, 0.2)
 """Parts of a turn that are tried where the whole one is too much for a joint."""
+
+_ELBOWS = frozenset(f"{side}_elbow" for side in SIDES)
 
 _Turns = Mapping[str, Vec3]
 
@@ -49,13 +52,16 @@ _HALF_A_TURN = math.cos(0.5 * math.radians(172.0))
 
 
 class Detour(NamedTuple):
-    """How the arms turn further on their way.
+    """How joints turn further on their way.
 
     Attributes:
-        turns: joint -> rotation vector in its own axes, rad: how much further it turns midway.
-        early: whether they turn so from the beginning on, by a goal that lies further away.
+        bends: joint -> Euler angles in the axes of the joint above it, rad: how much further it bends midway in any
+            case.
+        turns: joint of an arm -> rotation vector in its own axes, rad: how much further it turns midway.
+        early: whether the arms turn so from the beginning on, by a goal that lies further away.
     """
 
+    bends: Mapping[str, Vec3] = MappingProxyType({})
     turns: Mapping[str, Vec3] = MappingProxyType({})
     early: bool = True
 
@@ -64,53 +70,62 @@ class Detour(NamedTuple):
 
         Args:
             goal: rotations.
-            weight: of the goal, 0 to 1: the detour that is shown is this share of that of the goal.
+            weight: of the goal, 0 to 1: the turns that are shown are this share of those of the goal.
         """
-        share = self.share(weight)
-        if not share:
+        if weight == 1.0:
             return goal
-        turns = {joint: from_rotation_vector(scale(turn, share)) for joint, turn in self.turns.items() if joint in goal}
-        return {**goal, **{joint: multiply(goal[joint], turn) for joint, turn in turns.items()}}
+        turned = goal.keys() & (self.bends.keys() | self.turns.keys())
+        return {**goal, **{joint: self._turned(joint, goal[joint], weight) for joint in turned}}
+
+    def _turned(self, joint: str, goal: Quat, weight: float) -> Quat:
+        if (bend := self.bends.get(joint)) is not None:
+            goal = multiply(from_euler(*scale(bend, 4.0 * weight * (1.0 - weight))), goal)
+        turn = self.turns.get(joint)
+        return goal if turn is None else multiply(goal, from_rotation_vector(scale(turn, self.share(weight))))
 
     def share(self, weight: float) -> float:
-        """Return how much of the detour is added to a goal: times its weight, it is 0 at both ends, and 1 midway."""
+        """Return how much of the turns is added to a goal: times its weight, it is 0 at both ends, and 1 midway."""
         if self.early:
             return 4.0 * (1.0 - weight)
         return 5.38 * math.sqrt(weight) * (1.0 - weight)
 
     def limited(self, begin: Body, goal: Body) -> "Detour":
-        """Return the detour, smaller where a joint would come near to half a turn, and go the other way round."""
-        return self._replace(turns={joint: self._limited(joint, begin, goal) for joint in self.turns})
+        """Return the detour, smaller where a joint would go the other way round, or an elbow would bend backward."""
+        way = self._replace(bends={}, turns={})
+        for joint, bend in self.bends.items():
+            smaller = (way._replace(bends={**way.bends, joint: scale(bend, part)}) for part in _PARTS)
+            way = next((each for each in smaller if each._fits(joint, begin, goal)), way)
+        for joint, turn in self.turns.items():
+            smaller = (way._replace(turns={**way.turns, joint: scale(turn, part)}) for part in _PARTS)
+            way = next((each for each in smaller if each._fits(joint, begin, goal)), way)
+        return way
 
-    def _limited(self, joint: str, begin: Body, goal: Body) -> Vec3:
-        turn, start, end = self.turns[joint], begin.rotation(joint), goal.rotation(joint)
-        for part in PARTS:
-            ways = (from_rotation_vector(scale(turn, part * self.share(weight))) for weight in _LARGEST)
-            if goes_straight(start, end, (multiply(end, way) for way in ways)):
-                return scale(turn, part)
-        return ZERO
-
-
-def goes_straight(start: Quat, end: Quat, goals: Iterable[Quat]) -> bool:
-    """Return whether a joint that goes from start to end turns the same way round as long as it has other goals."""
-    same = math.copysign(1.0, _product(start, end))
-    return all(same * _product(start, goal) > _HALF_A_TURN for goal in goals)
+    def _fits(self, joint: str, begin: Body, goal: Body) -> bool:
+        """Whether a joint turns the same way round as without a detour, and bends forward if it is an elbow."""
+        start, end = begin.rotation(joint), goal.rotation(joint)
+        same = math.copysign(1.0, _product(start, end))
+        ways = [self._turned(joint, end, weight) for weight in _LARGEST]
+        if joint in _ELBOWS and max(map(_backward, ways)) > max(0.0, _backward(start), _backward(end)):
+            return False
+        return all(same * _product(start, way) > _HALF_A_TURN for way in ways)
 
 
 @lru_cache(64)
-def detour(begin: Body, goal: Body, clear: Clear) -> Detour:
+def detour(begin: Body, goal: Body, clear: Clear, bends: tuple[tuple[str, Vec3], ...] = ()) -> Detour:
     """Return the detour on which the arms keep clear of the body, as far as one turn of each joint can.
 
     Args:
         begin: the body from which they go.
         goal: the body to which they go, by their weight.
         clear: brings the arms of a body out of its flesh.
+        bends: those of the detour.
     """
     search = _Search(begin, goal, clear)
-    early, left = search(Detour())
+    bent = Detour(dict(bends)).limited(begin, goal)
+    early, left = search(bent)
     if left < _MUCH:
         return early
-    late, still_left = search(Detour(early=False))
+    late, still_left = search(bent._replace(early=False))
     return late if still_left < left else early
 
 
@@ -167,6 +182,11 @@ class _Search:
             return {}
         joints = (joint for side in SIDES for joint in _TURNED[side])
         return {joint: rotation_vector(difference(body.rotation(joint), out.rotation(joint))) for joint in joints}
+
+
+def _backward(elbow: Quat) -> float:
+    """By how much an elbow bends backward, rad."""
+    return rotation_vector(elbow)[0]
 
 
 def _size(turns: _Turns, side: str) -> float:
