@@ -84,9 +84,9 @@ async def _run(options: argparse.Namespace) -> int:
 
 
 def _connection(options: argparse.Namespace) -> Connection:
-    if options.program:
+    if options.program is not None:
         return ProgramConnection(options.program, PATIENCE, options.start)
-    if options.agent:
+    if options.agent is not None:
         return BrokerConnection(broker_of(options), options.scope, options.agent, PATIENCE, options.start)
     return SocketConnection(options.url, PATIENCE, options.start)
 

@@ -196,9 +196,11 @@ class ProgramConnection(Connection):
 
     async def __aenter__(self) -> Self:
         try:
-            program, *arguments = shlex.split(self._command)
+            words = shlex.split(self._command)
+            if not words:
+                raise ValueError("no program is named")
             self._process: Process = await asyncio.create_subprocess_exec(
-                program, *arguments, stdin=PIPE, stdout=PIPE, limit=_LONGEST_LINE, process_group=0
+                *words, stdin=PIPE, stdout=PIPE, limit=_LONGEST_LINE, process_group=0
             )
         except (OSError, ValueError) as problem:
             raise self._not_reached(str(problem)) from problem

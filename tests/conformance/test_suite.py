@@ -124,10 +124,12 @@ async def test_a_realizer_may_be_a_program_that_reads_and_writes_lines(
     [
         ("no-such-program", "no-such-program"),
         ('unclosed "quote', "No closing quotation"),
+        ("", "at : no program is named"),
+        (" ", "at  : no program is named"),
         (f'{sys.executable} -c "raise SystemExit(3)"', "it ended with status 3"),
         (f'{sys.executable} -c "print(17_000_000 * chr(65))"', "it wrote a line of more than 16000000 bytes"),
     ],
-    ids=["none", "no command", "ends", "endless line"],
+    ids=["none", "no command", "empty", "blank", "ends", "endless line"],
 )
 async def test_the_exit_status_is_2_if_the_program_cannot_be_tested(
     capsys: pytest.CaptureFixture[str], program: str, said: str
