@@ -57,15 +57,18 @@ class Explainer:
 
 
 def complain_of_inputs(paths: Iterable[Path]) -> bool:
-    """Print to stderr which of these are folders, and which do not exist; return whether any is no file."""
-    wrong = [path for path in paths if not path.is_file()]
-    folders = [str(path) for path in wrong if path.is_dir()]
-    missing = [str(path) for path in wrong if not path.is_dir()]
+    """Print to stderr which of these are folders, and which do not exist; return whether any cannot be read.
+
+    A pipe can be read, as a shell gives it for ``<(program)`` or ``/dev/stdin``.
+    """
+    paths = tuple(paths)
+    folders = [str(path) for path in paths if path.is_dir()]
+    missing = [str(path) for path in paths if not path.exists()]
     if folders:
         print(f"a folder, not a file: {', '.join(folders)}", file=sys.stderr)
     if missing:
         print(f"no such file: {', '.join(missing)}", file=sys.stderr)
-    return bool(wrong)
+    return bool(folders or missing)
 
 
 def print_problems(path: Path, problems: Iterable[Problem], stream: TextIO) -> None:

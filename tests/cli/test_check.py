@@ -1,5 +1,6 @@
 """The command `check`: problems of files with their locations."""
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -360,6 +361,17 @@ def test_a_streamed_speech_is_checked_without_its_sound(bml: Callable[..., str])
     stream = "<stream xmlns='urn:reactive-realizer:1' name='x' rate='24000'/>"
     described = f'<text>Hello.</text><description priority="1" type="audio/x-stream">{stream}</description>'
     assert main(["check", bml(block("b", f'<speech id="s">{described}</speech>'))]) == 0
+
+
+@pytest.mark.parametrize("command", ["check", "realize", "translate"])
+def test_a_document_may_come_through_a_pipe(command: str) -> None:
+    reading, writing = os.pipe()
+    with os.fdopen(writing, "w") as pipe:
+        pipe.write(block("b", '<wait id="w" duration="0.1"/>'))
+    try:
+        assert main([command, f"/dev/fd/{reading}"]) == 0
+    finally:
+        os.close(reading)
 
 
 @pytest.mark.parametrize("command", ["check", "realize", "translate"])
