@@ -2,6 +2,7 @@
 
 import argparse
 import logging
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -40,21 +41,40 @@ class _Command(argparse.ArgumentParser):
         return super().parse_known_args(args, namespace)
 
 
+_READER_GONE = 141
+"""The exit status that a shell gives a program that SIGPIPE has ended."""
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Run a command; the exit status."""
     try:
         options = _parser().parse_args(arguments)
         log_to_stderr(logging.INFO if options.verbose else logging.ERROR, options.log_format)
         status: int = options.run(options)
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except RealizerError as problem:
         print(problem.fault.sentence, file=sys.stderr)
         return 2
+    except BrokenPipeError:  # of the output, as after `head`; clients have errors of their own
+        return _READER_GONE
     except OSError as problem:
         print(problem, file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 130
+    finally:
+        _discard_unwritable()
     return status
+
+
+def _discard_unwritable() -> None:
+    """Discard output that cannot be written, of which Python would complain when it ends."""
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _parser() -> argparse.ArgumentParser:

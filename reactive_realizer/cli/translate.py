@@ -30,5 +30,5 @@ def run(options: argparse.Namespace) -> int:
     dialects = Dialects({name: load("dialects", name) for name in names("dialects")})
     found = dialects.read(options.file.read_bytes(), Limits(), options.name)
     print_problems(options.file, (problem for each in found for problem in each.problems), sys.stderr)
-    sys.stdout.write(document(each.written for each in found if each.written is not None))
+    print(document(each.written for each in found if each.written is not None), end="")
     return 1 if any(each.written is None for each in found) else 0

@@ -1,8 +1,10 @@
 """The common properties of all commands."""
 
+import os
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -30,6 +32,34 @@ except SystemExit:
     assert not set({unneeded.split()!r}) & set(sys.modules)
 """
     subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.DEVNULL)
+
+
+def run_with(words: list[str], output: int) -> tuple[int, bytes]:
+    """The exit status of a command and what it writes to stderr, when its output is buffered as usual."""
+    program, buffered = [sys.executable, "-m", "reactive_realizer", *words], {**os.environ, "PYTHONUNBUFFERED": ""}
+    ended = subprocess.run(program, stdout=output, stderr=subprocess.PIPE, env=buffered, check=False)
+    return ended.returncode, ended.stderr
+
+
+@pytest.mark.parametrize("command", ["translate FILE", "lexicon", "--help"])
+def test_a_command_whose_reader_has_gone_says_nothing(bml: Callable[..., str], command: str) -> None:
+    words = command.replace("FILE", bml(block("b", '<wait id="w" duration="1"/>'))).split()
+    reading, writing = os.pipe()
+    os.close(reading)
+    assert run_with(words, writing) == (0 if "--help" in words else 141, b"")
+    os.close(writing)
+
+
+@pytest.mark.parametrize("command", ["translate FILE", "lexicon"])
+def test_a_command_whose_output_cannot_be_written_says_so_in_a_line(bml: Callable[..., str], command: str) -> None:
+    words = command.replace("FILE", bml(block("b", '<wait id="w" duration="1"/>'))).split()
+    with Path("/dev/full").open("wb") as full:
+        assert run_with(words, full.fileno()) == (2, b"[Errno 28] No space left on device\n")
+
+
+def test_a_command_may_have_no_stdout(bml: Callable[..., str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)
+    assert main(["translate", bml(block("b"))]) == 0
 
 
 @pytest.mark.parametrize("command", ["realize", "check"])
