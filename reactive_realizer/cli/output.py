@@ -15,7 +15,14 @@ from reactive_realizer.scheduler.bml_block import BMLBlock
 
 
 class FeedbackWriter:
-    """Writes each message as a line of JSON."""
+    """Writes each message as a line of JSON.
+
+    Attributes:
+        problem: why messages could not be written; None as long as they can, or if their reader has closed the pipe, as
+            ``head`` does.
+    """
+
+    problem: OSError | None = None
 
     def __init__(self, stream: IO[str]) -> None:
         self._stream = stream
@@ -26,9 +33,11 @@ class FeedbackWriter:
         try:
             self._stream.write(json.dumps(line, ensure_ascii=False) + "\n")
             self._stream.flush()
-        except BrokenPipeError:
-            # The reader has closed the pipe, as `head` does. The session continues without this output.
+        except OSError as problem:
+            # The session continues without this output.
             os.dup2(os.open(os.devnull, os.O_WRONLY), self._stream.fileno())
+            if not isinstance(problem, BrokenPipeError):
+                self.problem = OSError(f"the feedback cannot be written: {problem.strerror}")
 
 
 def print_warning(report: Report) -> None:

@@ -4,7 +4,7 @@ import argparse
 import asyncio
 import re
 import sys
-from collections.abc import AsyncIterator, Iterable, Iterator
+from collections.abc import AsyncIterator, Callable, Iterable, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -237,16 +237,35 @@ def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
         realizer.feedback.listen(log.report)
         realizer.hear(log.hear)
     with _feedback(options.feedback) as stream:
-        realizer.feedback.listen(print_warning if stream is None else FeedbackWriter(stream))
+        writer = None if stream is None else FeedbackWriter(stream)
+        realizer.feedback.listen(writer or print_warning)
         yield
-    for write, path in wanted.items():
-        write(path, recorder.motions())
+    writes: list[tuple[Path, Callable[[], None]]] = [
+        (path, partial(write, path, recorder.motions())) for write, path in wanted.items()
+    ]
     if options.audio:
-        track.write(options.audio, realizer.time)
+        writes.append((options.audio, partial(track.write, options.audio, realizer.time)))
     if options.textgrid:
-        log.write(options.textgrid, realizer.time)
+        writes.append((options.textgrid, partial(log.write, options.textgrid, realizer.time)))
     if explainer is not None:
-        explainer.write(options.explain)
+        writes.append((options.explain, partial(explainer.write, options.explain)))
+    _write_all(writes, None if writer is None else writer.problem)
+
+
+def _write_all(writes: Iterable[tuple[Path, Callable[[], None]]], before: OSError | None) -> None:
+    """Write all files that can be written.
+
+    Raises:
+        OSError: why the others cannot, and what has failed before.
+    """
+    problems = [] if before is None else [str(before)]
+    for path, write in writes:
+        try:
+            write()
+        except OSError as problem:
+            problems.append(f"{path} cannot be written: {problem.strerror or problem}")
+    if problems:
+        raise OSError("\n".join(problems))
 
 
 @asynccontextmanager

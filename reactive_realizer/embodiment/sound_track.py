@@ -36,11 +36,17 @@ class SoundTrack:
         Args:
             path: of the file.
             end: of the session, s. The file lasts until then, or until the last fade.
+
+        Raises:
+            OSError: the file cannot be written.
         """
         channels, pieces = self.mixed(end)
-        with soundfile.SoundFile(path, "w", RATE, channels, "PCM_16", format="WAV") as file:
-            for piece in pieces:
-                file.write(piece)
+        try:
+            with soundfile.SoundFile(path, "w", RATE, channels, "PCM_16", format="WAV") as file:
+                for piece in pieces:
+                    file.write(piece)
+        except soundfile.LibsndfileError as problem:
+            raise OSError(str(problem)) from problem
 
     def mixed(self, end: GlobalTime) -> tuple[int, Iterator[Samples]]:
         """The number of channels, and the mix in pieces: (length, channels) float32, 48 kHz, which may exceed -1..1.

@@ -172,6 +172,18 @@ def test_the_exit_status_is_2_for_a_missing_file_or_a_usage_error(
     assert "Traceback" not in captured.err
 
 
+def test_a_file_that_cannot_be_written_is_told_in_a_line_and_the_others_are_written(
+    bml: Callable[..., str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    outputs = ["--feedback", "/dev/full", "--audio", "/proc/x", "--bvh", "/dev/full", "--explain", f"{tmp_path}/why"]
+    assert main(["realize", bml(HELLO), "--voice", "text", *outputs]) == 2
+    feedback, bvh, audio = capsys.readouterr().err.splitlines()
+    assert feedback == "the feedback cannot be written: No space left on device"
+    assert bvh == "/dev/full cannot be written: No space left on device"
+    assert audio.startswith("/proc/x cannot be written: ")
+    assert "hello" in (tmp_path / "why").read_text()
+
+
 @pytest.mark.parametrize(
     ("text", "status", "said"),
     [
