@@ -88,6 +88,17 @@ async def test_many_key_poses_are_as_much_work_as_many_behaviors(pilot: Realizer
     assert pilot.feedback.warnings == []
 
 
+async def test_a_tick_has_time_to_search_for_the_detours_of_two_postures_at_most(pilot: RealizerPilot) -> None:
+    postures = (
+        f'<posture id="p{i}" start="{i}" end="{i + 1}"><pose part="ARMS" lexeme="ARMS_{lexeme}"/></posture>'
+        for i, lexeme in enumerate(["CROSSED", "AKIMBO"] * 5)
+    )
+    pilot.block("arms", "".join(postures))
+    await pilot.advance(0.5)
+    assert pilot.feedback.time("arms:start") >= 0.05
+    assert pilot.feedback.warnings == []
+
+
 async def test_work_beyond_the_budget_of_a_tick_is_taken_from_the_next_ones(
     slow: RealizerPilot, monkeypatch: pytest.MonkeyPatch
 ) -> None:

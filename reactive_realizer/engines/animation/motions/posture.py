@@ -26,7 +26,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     Predictability,
     Resource,
 )
-from reactive_realizer.engines.animation.posture.detour import Detour, detour
+from reactive_realizer.engines.animation.posture.detour import Detour, find_detour
 from reactive_realizer.engines.animation.posture.posture_library import PART_JOINTS, BodyPosture
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import from_rest, lag, moving_time
@@ -49,6 +49,9 @@ _SWING = {
 }
 """Swing of the arms forward and aside meanwhile; otherwise the hands would pass through the rising thighs."""
 
+_WORK, _LOOK = 150, 25
+"""Work of making it, and of each pose that is looked at for its detour, as the limit `planning_per_tick` counts."""
+
 _MIDWAY = (0.25, 0.5, 0.75)
 """Shares of the way at which a detour is measured."""
 
@@ -67,7 +70,7 @@ class PostureMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.POSTURE
-    planning_work = 150
+    planning_work = _WORK
     resources = frozenset({Resource.STANCE})
     group = "posture"
     predictability = Predictability.ONCE_STARTED
@@ -128,7 +131,8 @@ class PostureMotionUnit(MotionUnit):
             self._detour = Detour(bends).limited(self._from, self.body)
         else:
             goal = self.body.posed(self._goal, self._root)
-            self._detour = detour(self._from, goal, self._rest.clear, tuple(bends.items()))
+            self._detour, poses = find_detour(self._from, goal, self._rest.clear, tuple(bends.items()))
+            self.planning_work = _WORK + _LOOK * poses
 
     def _bends(self, begin: Body) -> dict[str, Vec3]:
         """Return how the trunk bows and the arms swing midway from a body, Euler angles, rad."""

@@ -110,9 +110,21 @@ class Detour(NamedTuple):
         return all(same * _product(start, way) > _HALF_A_TURN for way in ways)
 
 
+class FoundDetour(NamedTuple):
+    """The result of a search.
+
+    Attributes:
+        detour: the best one.
+        poses: the number of poses that were looked at.
+    """
+
+    detour: Detour
+    poses: int
+
+
 @lru_cache(64)
-def detour(begin: Body, goal: Body, clear: Clear, bends: tuple[tuple[str, Vec3], ...] = ()) -> Detour:
-    """Return the detour on which the arms keep clear of the body, as far as one turn of each joint can.
+def find_detour(begin: Body, goal: Body, clear: Clear, bends: tuple[tuple[str, Vec3], ...] = ()) -> FoundDetour:
+    """Find the detour on which the arms keep clear of the body, as far as one turn of each joint can.
 
     Args:
         begin: the body from which they go.
@@ -122,17 +134,22 @@ def detour(begin: Body, goal: Body, clear: Clear, bends: tuple[tuple[str, Vec3],
     """
     search = _Search(begin, goal, clear)
     bent = Detour(dict(bends)).limited(begin, goal)
-    early, left = search(bent)
-    if left < _MUCH:
-        return early
-    late, still_left = search(bent._replace(early=False))
-    return late if still_left < left else early
+    best, left = search(bent)
+    if left >= _MUCH:
+        late, still_left = search(bent._replace(early=False))
+        best = late if still_left < left else best
+    return FoundDetour(best, search.poses)
 
 
 class _Search:
-    """The search for a detour."""
+    """The search for a detour.
+
+    Attributes:
+        poses: the number of poses that were looked at.
+    """
 
     def __init__(self, begin: Body, goal: Body, clear: Clear) -> None:
+        self.poses = 0
         self._begin, self._goal, self._clear = begin, goal, clear
         self._ends = [self._turns(body) for body in (begin, goal)]
 
@@ -177,6 +194,7 @@ class _Search:
 
     def _turns(self, body: Body) -> _Turns:
         """Return how the joints of the arms turn to be out of flesh, rad; none if they are."""
+        self.poses += 1
         out = self._clear(body, _AWAY)
         if out is body:
             return {}
