@@ -2,6 +2,7 @@
 
 import logging
 import sys
+from collections.abc import Callable
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
@@ -26,8 +27,13 @@ _GROUPS = (
 )
 
 
-def load(group: str, name: str, kind: type = object) -> Any:
-    """Imports the object of an entry point of ``reactive_realizer.GROUP``, which has to be of a kind.
+def load(group: str, name: str, kind: Any = Callable) -> Any:
+    """Imports the object of an entry point of ``reactive_realizer.GROUP``.
+
+    Args:
+        group: of plug-ins.
+        name: in the group.
+        kind: the class that the object has to belong to; by default, it is a class itself, or a function.
 
     Raises:
         RealizerError: "no-plugin", "two-plugins", or "broken-plugin": it cannot be imported, or is of another kind.

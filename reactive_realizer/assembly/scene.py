@@ -14,7 +14,7 @@ from reactive_realizer.assembly.faults import BadHumanFile
 from reactive_realizer.assembly.human_file import SPEECH, AnticipatorSpec, CharacterSpec, HumanFile, read_human_file
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.assembly.speech_binding import read_speech_binding
-from reactive_realizer.bml.dialects import Dialects
+from reactive_realizer.bml.dialects import Dialect, Dialects
 from reactive_realizer.bml.expressivity import Expressivity
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.avatar import Avatar
@@ -120,7 +120,7 @@ async def open_scene(options: SceneOptions) -> AsyncIterator[Scene]:
         word_classes=classes,
         fillers=fillers,
         autonomous={id_: spec.autonomous for id_, spec in specification.characters.items()},
-        dialects=Dialects({name: load("dialects", name) for name in names("dialects")}),
+        dialects=Dialects({name: load("dialects", name, Dialect) for name in names("dialects")}),
         verify=options.verify,
     )
     await tts.start()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from reactive_realizer.assembly.registry import load, names
 from reactive_realizer.bml.block_writer import document
-from reactive_realizer.bml.dialects import Dialects
+from reactive_realizer.bml.dialects import Dialect, Dialects
 from reactive_realizer.cli.output import complain_of_inputs, print_problems
 from reactive_realizer.limits import Limits
 
@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
     """The exit status: 1 if a block is refused, 2 if the file does not exist."""
     if complain_of_inputs([options.file]):
         return 2
-    dialects = Dialects({name: load("dialects", name) for name in names("dialects")})
+    dialects = Dialects({name: load("dialects", name, Dialect) for name in names("dialects")})
     found = dialects.read(options.file.read_bytes(), Limits(), options.name)
     print_problems(options.file, (problem for each in found for problem in each.problems), sys.stderr)
     print(document(each.written for each in found if each.written is not None), end="")

@@ -66,7 +66,7 @@ def plugin(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Open:
             return make
 
         monkeypatch.setattr(f"{SCENE}.names", lambda group: [name] if group == "motions" else names(group))
-        monkeypatch.setattr(f"{SCENE}.load", lambda group, id_: maker if group == "motions" else load(group, id_))
+        monkeypatch.setattr(f"{SCENE}.load", lambda group, *which: maker if group == "motions" else load(group, *which))
         (tmp_path / "own.xml").write_text(f"<gesturebinding>{ENTRY}</gesturebinding>", encoding="utf-8")
         human = tmp_path / "human.toml"
         human.write_text('[character.alice]\nbindings = { gesture = "own.xml" }\n', encoding="utf-8")
