@@ -15,8 +15,8 @@ from reactive_realizer.testing.assertions import (
     assert_ended,
     assert_linked,
     assert_order,
+    assert_relative_time,
     assert_reported_once,
-    assert_time,
     assert_warnings,
 )
 from reactive_realizer.testing.pilot import RealizerPilot
@@ -136,7 +136,7 @@ async def assert_comes_out(pilot: RealizerPilot, script: Script) -> None:
     times = [line.global_time for line in told.of("syncPointProgress")]
     assert times == sorted(times)
     for point, time in script.times.items():
-        assert_time(told, f"{block}:{point}", time)
+        assert_relative_time(told, f"{block}:{point}", time)
     for one, other in script.links:
         assert_linked(told, f"{block}:{one}", f"{block}:{other}")
     for earlier, later in pairwise(script.order):

@@ -88,14 +88,32 @@ async def test_many_key_poses_are_as_much_work_as_many_behaviors(pilot: Realizer
     assert pilot.feedback.warnings == []
 
 
-async def test_a_tick_has_time_to_search_for_the_detours_of_two_postures_at_most(pilot: RealizerPilot) -> None:
-    postures = (
+async def test_the_search_for_the_detours_of_postures_is_work_only_once(pilot: RealizerPilot) -> None:
+    poses = ["CROSSED", "AKIMBO", "FORWARD", "SPREAD", "OPEN"]
+    postures = "".join(
         f'<posture id="p{i}" start="{i}" end="{i + 1}"><pose part="ARMS" lexeme="ARMS_{lexeme}"/></posture>'
-        for i, lexeme in enumerate(["CROSSED", "AKIMBO"] * 5)
+        for i, lexeme in enumerate(poses)
     )
-    pilot.block("arms", "".join(postures))
+    pilot.block("first", postures)
     await pilot.advance(0.5)
-    assert pilot.feedback.time("arms:start") >= 0.05
+    pilot.block("second", postures, composition="REPLACE")
+    await pilot.advance(0.5)
+    assert pilot.feedback.time("first:start") >= 0.03
+    assert pilot.feedback.time("second:start") <= 0.52
+    assert pilot.feedback.warnings == []
+
+
+async def test_computing_the_paths_of_gestures_is_work(pilot: RealizerPilot) -> None:
+    for id_, values in ("equal", [0.5] * 7), ("different", [number / 10 for number in range(1, 8)]):
+        gestures = (
+            f'<gesture id="g{i}" lexeme="BEAT" start="{2 * i}">'
+            f'<bmlt:parameter name="amount" value="{value}"/></gesture>'
+            for i, value in enumerate(values)
+        )
+        pilot.block(id_, "".join(gestures), composition="REPLACE")
+        await pilot.advance(0.5)
+    assert pilot.feedback.time("equal:start") == 0.0
+    assert pilot.feedback.time("different:start") >= 0.51
     assert pilot.feedback.warnings == []
 
 

@@ -1,7 +1,7 @@
 """Plans motions: the units of behaviors, and the posture and the place in which they leave the figure."""
 
 import asyncio
-from collections.abc import Awaitable, Callable, Collection, Iterable, Iterator
+from collections.abc import Awaitable, Callable, Collection, Hashable, Iterable, Iterator
 from itertools import chain
 
 from reactive_realizer.bml.behavior import Behavior
@@ -28,6 +28,9 @@ from reactive_realizer.engines.animation.weight_shifts import WeightShiftUnit
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.plan_unit import PlanUnit
+
+_MOST_ORIGINS = 64
+"""Origins of motions that are remembered; makers of motions remember what they made for as many at least."""
 
 
 class MotionDrafts:
@@ -115,6 +118,7 @@ class MotionPlanner:
         self._drafts = drafts
         self._predictor = predictor
         self._context = context
+        self._origins: dict[Hashable, None] = {}
 
     def check(self, behavior: Behavior) -> Collection[str] | None:
         """See `DefaultEngine`."""
@@ -142,8 +146,21 @@ class MotionPlanner:
         if not self._drafts.keep_before(block, behavior):
             self._library.refresh()
         unit = self._unit(block, behavior)
+        unit.planning_work += self._first_work(unit.motion)
         self._drafts.add(unit)
         return unit
+
+    def _first_work(self, motion: MotionUnit) -> int:
+        """Return the further work of a motion, if none was planned from its origin before.
+
+        What other sessions of the process have planned does not count, so that a replay takes the same ticks.
+        """
+        if motion.origin is None or motion.origin in self._origins:
+            return 0
+        if len(self._origins) == _MOST_ORIGINS:
+            del self._origins[next(iter(self._origins))]
+        self._origins[motion.origin] = None
+        return motion.first_work
 
     def _idle_unit(self, block: BlockKey, behavior: IdleChange | WeightShift) -> IdleChangeUnit | WeightShiftUnit:
         """Plan a change of idle animation, or a movement of it.

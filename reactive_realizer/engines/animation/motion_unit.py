@@ -1,7 +1,7 @@
 """A motion as a function of phase, which the animation engine plays between pegs (thesis 4.2)."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Hashable, Mapping
 from enum import Enum
 from math import inf
 from operator import itemgetter
@@ -153,6 +153,8 @@ class MotionUnit(ABC):
         fault: that occurred while playing; None if there is none.
         notes: faults of parts that are left out.
         planning_work: what it takes to make it (`PlanUnit.planning_work`).
+        origin: what takes further work only the first time that something is planned from it; None if nothing does.
+        first_work: this further work.
     """
 
     kind: LayerKind
@@ -181,6 +183,8 @@ class MotionUnit(ABC):
     fault: Fault | None = None
     notes: tuple[Fault, ...] = ()
     planning_work: int = 16
+    origin: Hashable = None
+    first_work: int = 0
 
     @property
     def parameter_names(self) -> frozenset[str]:

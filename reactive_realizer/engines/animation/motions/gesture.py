@@ -44,6 +44,9 @@ HOLD = "postStrokeHoldDuration"
 
 HOLD_RANGE = Range(0.0, 600.0)
 
+_PATHS = 150
+"""Work of computing the paths of the hands, as the limit `planning_per_tick` counts."""
+
 _INNER = GESTURE_POINTS[1:-1]
 
 _VARIED = frozenset(f"{side}_{joint}" for side in SIDES for joint in ("sternoclavicular", "shoulder", "elbow", "wrist"))
@@ -94,6 +97,7 @@ class GestureMotionUnit(MotionUnit):
 
     kind = LayerKind.GESTURE
     authored = ("ready", "relax")
+    first_work = _PATHS
     fixed = FILE_PARAMETERS | {HOLD}
     predictability = Predictability.ONCE_STARTED
 
@@ -377,6 +381,7 @@ class GestureMaker:
         given = finite_numbers(request.parameters) | parameter_values(request.parameters, ranges)
         parameters = self._manner | given
         motion = _planned(animation, tuple(parameters.items()), self._rest.body).copy()
+        motion.origin = (animation, tuple(parameters.items()), self._rest.body)
         motion.random = self._random
         return motion
 

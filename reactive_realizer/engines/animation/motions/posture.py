@@ -49,8 +49,8 @@ _SWING = {
 }
 """Swing of the arms forward and aside meanwhile; otherwise the hands would pass through the rising thighs."""
 
-_WORK, _LOOK = 150, 25
-"""Work of making it, and of each pose that is looked at for its detour, as the limit `planning_per_tick` counts."""
+_LOOK = 25
+"""Work of each pose that is looked at for its detour, as the limit `planning_per_tick` counts."""
 
 _MIDWAY = (0.25, 0.5, 0.75)
 """Shares of the way at which a detour is measured."""
@@ -70,7 +70,7 @@ class PostureMotionUnit(MotionUnit):
     """
 
     kind = LayerKind.POSTURE
-    planning_work = _WORK
+    planning_work = 150
     resources = frozenset({Resource.STANCE})
     group = "posture"
     predictability = Predictability.ONCE_STARTED
@@ -132,7 +132,7 @@ class PostureMotionUnit(MotionUnit):
         else:
             goal = self.body.posed(self._goal, self._root)
             self._detour, poses = find_detour(self._from, goal, self._rest.clear, tuple(bends.items()))
-            self.planning_work = _WORK + _LOOK * poses
+            self.origin, self.first_work = (self._from, goal), _LOOK * poses
 
     def _bends(self, begin: Body) -> dict[str, Vec3]:
         """Return how the trunk bows and the arms swing midway from a body, Euler angles, rad."""
