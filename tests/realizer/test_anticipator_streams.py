@@ -31,7 +31,7 @@ def opened(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Open:
     @asynccontextmanager
     async def open_with(*kinds: type[Anticipator]) -> AsyncIterator[RealizerPilot]:
         known = {kind.kind: kind for kind in kinds}
-        monkeypatch.setattr(scene, "load", lambda group, name: known.get(name) or load(group, name))
+        monkeypatch.setattr(scene, "load", lambda group, name, *kind: known.get(name) or load(group, name, *kind))
         human = tmp_path / "human.toml"
         human.write_text("[character.alice]\n" + "".join(f'[anticipator.{kind}]\nkind = "{kind}"\n' for kind in known))
         async with open_pilot(SceneOptions(human, "text")) as pilot:
