@@ -116,6 +116,8 @@ class Fault(_Kind):
 _MOST_LISTED = 40
 _MOST_QUOTED = 60
 _DIGITS = range(2, 7)
+_LARGE = 1e9
+"""A number from which on its digits tell a reader nothing."""
 
 
 def rounded(number: float, *others: float) -> str:
@@ -125,6 +127,8 @@ def rounded(number: float, *others: float) -> str:
         number: in any unit.
         others: the numbers from which the reader has to tell it; zero if there are none.
     """
+    if abs(number) >= _LARGE:
+        return f"{number:g}"
     different = {number, *(others or (0.0,))}
     telling = (digits for digits in _DIGITS if len({round(each, digits) for each in different}) == len(different))
     digits = next(telling, _DIGITS[0])

@@ -38,6 +38,7 @@ class _Late(SchedulingFault):
         (-2.0, 0.104, 0.0982, "-2.00 s late: needs 0.104 s, has 0.098 s"),
         (0.0004, 0.5, 0.5 + 1e-12, "0.0004 s late: needs 0.50 s, has 0.50 s"),
         (-1e-12, 0.1, 0.1, "0.00 s late: needs 0.10 s, has 0.10 s"),
+        (1e300, 0.1, 0.1, "1e+300 s late: needs 0.10 s, has 0.10 s"),
     ],
 )
 def test_numbers_have_two_digits_or_more_if_these_show_no_difference(

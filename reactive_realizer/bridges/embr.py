@@ -71,10 +71,18 @@ async def run_bridge(
 
 
 async def _reports(feedback: Address) -> asyncio.DatagramTransport:
+    """Open the way to the receiver of feedback.
+
+    Raises:
+        OSError: its host is not known.
+    """
     loop = asyncio.get_running_loop()
-    transport, _ = await loop.create_datagram_endpoint(
-        asyncio.DatagramProtocol, remote_addr=feedback, family=socket.AF_INET
-    )
+    try:
+        transport, _ = await loop.create_datagram_endpoint(
+            asyncio.DatagramProtocol, remote_addr=feedback, family=socket.AF_INET
+        )
+    except OSError as problem:
+        raise OSError(f"feedback cannot be sent to {feedback[0]}: {problem}") from problem
     return transport
 
 

@@ -7,6 +7,7 @@ behaviors. The message of an AssertionError says what was reported instead.
 from collections.abc import Iterable
 from itertools import pairwise
 
+from reactive_realizer.errors import rounded
 from reactive_realizer.testing.feedback_list import FeedbackList
 
 TOLERANCE = 1e-3
@@ -46,7 +47,9 @@ def assert_ended(feedback: FeedbackList, block: str, status: str = DONE) -> None
 def assert_time(feedback: FeedbackList, point: str, time: float, tolerance: float = TOLERANCE) -> None:
     """A point was reached at a global time, s."""
     reached = feedback.time(point)
-    assert abs(reached - time) <= tolerance, f"{point} was reached at {reached:g} s instead of {time:g} s"
+    assert abs(reached - time) <= tolerance, (
+        f"{point} was reached at {rounded(reached, time)} s instead of {rounded(time, reached)} s"
+    )
 
 
 def assert_linked(
@@ -55,7 +58,7 @@ def assert_linked(
     """A point was reached ``offset`` seconds after another one."""
     distance = feedback.time(point) - feedback.time(other)
     assert abs(distance - offset) <= tolerance, (
-        f"{point} was reached {distance:g} s after {other} instead of {offset:g} s"
+        f"{point} was reached {rounded(distance, offset)} s after {other} instead of {rounded(offset, distance)} s"
     )
 
 
@@ -70,7 +73,8 @@ def assert_order(
     """A point was reached at least ``distance`` seconds after another one."""
     between = feedback.time(later) - feedback.time(earlier)
     assert between >= distance - tolerance, (
-        f"{later} was reached {between:g} s after {earlier} instead of at least {distance:g} s"
+        f"{later} was reached {rounded(between, distance)} s after {earlier} "
+        f"instead of at least {rounded(distance, between)} s"
     )
 
 

@@ -123,6 +123,12 @@ async def test_a_script_that_is_too_long_is_refused_and_an_empty_connection_mean
         assert "has more than 1200000 bytes" in (warning.text or "")
 
 
+async def test_a_receiver_of_feedback_that_is_not_known_is_named(live: tuple[LiveScene, str]) -> None:
+    _, url = live
+    with pytest.raises(OSError, match=r"feedback cannot be sent to nowhere\.invalid: "):
+        await run_bridge(url, ("127.0.0.1", 0), ("nowhere.invalid", 5556))
+
+
 async def test_only_so_many_connections_are_open_at_once() -> None:
     sent = asyncio.Event()
     reports: list[bytes] = []

@@ -176,7 +176,7 @@ async def test_a_waiting_block_starts_when_the_last_of_its_predecessors_is_over(
         return moved(xml, "global(?:Start|Time|End)", seconds) if ' id="b' in xml else xml
 
     found = problems(case_of(script), [(at, shifted(xml)) for at, xml in told])
-    assert any(f"b:start was reached {seconds:g} s after {last} instead of 0 s" in each for each in found), found
+    assert any(f"b:start was reached {seconds:.2f} s after {last} instead of 0.00 s" in each for each in found), found
 
 
 @pytest.mark.parametrize(

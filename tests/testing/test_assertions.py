@@ -79,19 +79,26 @@ def test_every_assertion_passes_on_good_feedback() -> None:
         (lambda feedback: assertions.assert_ended(feedback, "b", "INTERRUPTED"), "b ended DONE instead of INTERRUPTED"),
         (
             lambda feedback: assertions.assert_time(feedback, "b:w:end", 2.1),
-            "b:w:end was reached at 2 s instead of 2.1 s",
+            "b:w:end was reached at 2.00 s instead of 2.10 s",
         ),
         (lambda feedback: assertions.assert_time(feedback, "b:x:end", 2), "b:x:end was reported 0 times"),
-        (lambda feedback: assertions.assert_relative_time(feedback, "b:w:end", 2), "1 s after b:start instead of 2 s"),
+        (
+            lambda feedback: assertions.assert_relative_time(feedback, "b:w:end", 2),
+            "1.00 s after b:start instead of 2.00 s",
+        ),
+        (
+            lambda feedback: assertions.assert_time(feedback, "b:w:end", 2.00004, 0.0),
+            "at 2.00000 s instead of 2.00004 s",
+        ),
         (
             lambda feedback: assertions.assert_linked(feedback, "b:h:end", "b:w:end"),
-            "b:h:end was reached 1 s after b:w:end",
+            "b:h:end was reached 1.00 s after b:w:end",
         ),
         (
             lambda feedback: assertions.assert_order(feedback, "b:h:end", "b:w:end"),
-            "b:w:end was reached -1 s after b:h:end",
+            "b:w:end was reached -1.00 s after b:h:end",
         ),
-        (lambda feedback: assertions.assert_order(feedback, "b:w:end", "b:h:end", 1.1), "at least 1.1 s"),
+        (lambda feedback: assertions.assert_order(feedback, "b:w:end", "b:h:end", 1.1), "at least 1.10 s"),
         (lambda feedback: assertions.assert_warnings(feedback), "a warning of b:x NO_SUCH_TARGET"),
         (
             lambda feedback: assertions.assert_warnings(feedback, ("b:x", "A"), ("b:x", "NO_SUCH_TARGET")),
@@ -105,11 +112,11 @@ def test_every_assertion_passes_on_good_feedback() -> None:
         (lambda feedback: assertions.assert_all_predicted(feedback, "b:h"), "b:h:start was not predicted"),
         (
             lambda feedback: assertions.assert_starts_with_last(feedback, "c", ["b:w:end"]),
-            "c:start was reached 1 s after b:w",
+            "c:start was reached 1.00 s after b:w",
         ),
         (
             lambda feedback: assertions.assert_starts_with_last(feedback, "b", ["b:start", "b:end"]),
-            "b:start was reached -2 s",
+            "b:start was reached -2.00 s",
         ),
     ],
 )
@@ -147,7 +154,7 @@ REACHED = [progress("b:s:start", 1), progress("b:s:m", 1.5), progress("b:s:n", 1
 def test_the_start_the_end_and_the_other_predicted_points_of_a_behavior_are_checked() -> None:
     whole = PREDICTED.format(' end="2"', 0.5)
     assertions.assert_all_predicted(feedback_of(whole, *REACHED), "b:s")
-    with pytest.raises(AssertionError, match=r"b:s:m was reached at 1.5 s instead of 1.6 s"):
+    with pytest.raises(AssertionError, match=r"b:s:m was reached at 1.50 s instead of 1.60 s"):
         assertions.assert_all_predicted(feedback_of(PREDICTED.format(' end="2"', 0.6), *REACHED), "b:s")
     with pytest.raises(AssertionError, match="b:s:end was not predicted"):
         assertions.assert_all_predicted(feedback_of(PREDICTED.format("", 0.5), *REACHED), "b:s")
@@ -157,7 +164,7 @@ def test_a_point_is_compared_with_the_last_prediction_before_it() -> None:
     wrong, right = PREDICTED.format(' end="2.5"', 0.5), PREDICTED.format(' end="2"', 0.5)
     assertions.assert_predicted(feedback_of(wrong, *REACHED[:3], right, REACHED[3]), "b:s:end")
     assertions.assert_predicted(feedback_of(right, *REACHED, wrong), "b:s:end")
-    with pytest.raises(AssertionError, match=r"b:s:end was reached at 3 s instead of 3.5 s"):
+    with pytest.raises(AssertionError, match=r"b:s:end was reached at 3.00 s instead of 3.50 s"):
         assertions.assert_predicted(feedback_of(right, wrong, *REACHED), "b:s:end")
 
 
