@@ -28,6 +28,9 @@ _COARSE, _FINE = (tuple(number / 14 for number in range(first, 14, 2)) for first
 _STEPS = 4
 """Steps of the solution; what it leaves, the figure keeps clear of in each frame."""
 
+_MOST_POSES = 30
+"""Poses that were looked at after which no further step is made: a search holds up a tick. Few need as many."""
+
 _ENOUGH = 0.03
 """A smaller turn is left to that, rad."""
 
@@ -163,7 +166,7 @@ class _Search:
             left = rough, max(worst.values(), default=0.0)
             if left < least:
                 best, least = way, left
-            if not worst:
+            if not worst or self.poses >= _MOST_POSES:
                 break
             turns = {joint: add(way.turns.get(joint, ZERO), turn) for joint, turn in further.items()}
             way = way._replace(turns={**way.turns, **turns}).limited(self._begin, self._goal)
