@@ -1,5 +1,6 @@
 """How thick a figure is: its trunk, head, thighs, forearms and hands, measured from its skin."""
 
+import logging
 import math
 from collections.abc import Mapping
 from functools import lru_cache
@@ -14,6 +15,8 @@ from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES, TRUNK
 from reactive_realizer.embodiment.profile import Profile
 from reactive_realizer.embodiment.skin import Skin, read_skin
 from reactive_realizer.embodiment.vector import Vec3, distance
+
+logger = logging.getLogger(__name__)
 
 _FEWEST = 20
 """Fewest vertices that tell a size."""
@@ -74,7 +77,9 @@ def girth_of(avatar: Avatar) -> Girth:
     """Return the thickness of an avatar; where its skin cannot be read, that of a person with such a trunk."""
     try:
         skin = read_skin(avatar)
-    except (LookupError, TypeError, ValueError):
+    except (LookupError, TypeError, ValueError) as problem:
+        name = "" if avatar.path is None else avatar.path.name
+        logger.warning("the skin of %s is not read: %r; the figure is as thick as people are", name, problem)
         skin = {}
     neck = HEAD[0] if HEAD[0] in avatar.skeleton else HEAD[1]
     trunk = distance(_at(avatar, neck), _at(avatar, ROOT))

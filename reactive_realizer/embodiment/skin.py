@@ -19,7 +19,7 @@ def read_skin(avatar: Avatar) -> Skin:
     """Return the skin of an avatar: all meshes, with clothes and hair; none if it was not read from a file.
 
     Raises:
-        LookupError, TypeError, ValueError: the meshes are compressed or not valid.
+        LookupError, TypeError, ValueError: the meshes are compressed or not valid, or have vertices that are nowhere.
     """
     if avatar.path is None:
         return {}
@@ -45,6 +45,8 @@ def _add(
 ) -> None:
     """Add the vertices of a part of a mesh to those of their joints."""
     points = arrays[attributes["POSITION"]].astype(float)
+    if not np.isfinite(points).all():
+        raise ValueError("a vertex without a finite position")
     weights, bones = arrays[attributes["WEIGHTS_0"]], arrays[attributes["JOINTS_0"]]
     strongest = bones[np.arange(len(points)), weights.argmax(axis=1)]
     to_bones = arrays[skin["inverseBindMatrices"]].astype(float).reshape(-1, 4, 4).transpose(0, 2, 1)

@@ -91,6 +91,21 @@ def test_a_skin_that_claims_more_than_any_file_has_is_not_read(tmp_path: Path) -
     assert girth_of(avatar) == girth_of(replace(avatar, path=None))
 
 
+@pytest.mark.parametrize("number", [math.nan, math.inf])
+def test_a_skin_with_a_vertex_that_is_nowhere_is_not_used(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, number: float
+) -> None:
+    scene, data = read_binary(PACKAGE / "female.glb")
+    position = scene["accessors"][scene["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+    at = scene["bufferViews"][position["bufferView"]].get("byteOffset", 0) + position.get("byteOffset", 0)
+    broken = bytearray(data)
+    broken[at : at + 4] = np.array([number], "<f4").tobytes()
+    write_binary(tmp_path / "broken.glb", scene, bytes(broken))
+    avatar = Avatar.read(tmp_path / "broken.glb")
+    assert girth_of(avatar) == girth_of(replace(avatar, path=None))
+    assert "the skin of broken.glb is not read" in caplog.text
+
+
 def test_a_hand_in_the_belly_goes_out_in_front(avatar: Avatar) -> None:
     clearance, inside = Clearance.of(avatar), bent(avatar, 1.3, 0.3)
     assert clearance.deepest(inside) > 0.03

@@ -306,3 +306,17 @@ async def test_a_target_that_is_removed_is_where_it_was_last(pilot: RealizerPilo
     pilot.move("door", None)
     await pilot.advance(5)
     assert place(pilot.bodies("alice")[-1]) == pytest.approx((0.0, 3.5), abs=0.04)
+
+
+@pytest.mark.parametrize(
+    "way",
+    [go("1 1 1.5", distance=0.5, speed=2), go("1 1 1.5", distance=0.5, manner="RUN"), go("0 -2", speed=1.6)],
+    ids=["fast, to the side", "running, to the side", "fast, to the back"],
+)
+async def test_a_figure_in_a_hurry_that_turns_does_not_sink_to_its_knees(either: RealizerPilot, way: str) -> None:
+    either.block("b", way)
+    await either.advance(5)
+    assert either.feedback.reached("b:w:end")
+    heights = [body.transform("HumanoidRoot").position[1] for body in either.bodies("alice")]
+    assert min(heights) > heights[0] - 0.2
+    assert np.abs(np.diff(heights, 2)).max() / 0.02**2 < 75.0

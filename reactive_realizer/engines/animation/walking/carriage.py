@@ -38,6 +38,10 @@ _BENT = 0.012
 _SOFTNESS = 0.012
 """Softness with which the pelvis is lowered for a leg that would not reach its foot, m."""
 
+_KNEES, _LOWEST = 0.06, 0.12
+"""How much lower the pelvis goes for a leg that would not reach its foot, and its limit, m: from there on, the foot is
+dragged along. A figure in a hurry that turns would sink to its knees otherwise."""
+
 _PELVIS_YAW = 0.16
 """Turn of the pelvis with the foot in front, rad per meter between the feet."""
 
@@ -114,9 +118,12 @@ class Carriage:
 def lowering(body: Body, feet: Sequence[FootPose], walking: float) -> float:
     """Return how much lower the pelvis has to be for the legs to reach the feet that stand, m."""
     softness = max(1e-4, _SOFTNESS * walking)
-    return sum(
+    needed = sum(
         foot.bears * _softly(_lacking(body, side, foot), softness) for side, foot in zip(SIDES, feet, strict=True)
     )
+    if needed <= _KNEES:
+        return needed
+    return _LOWEST - (_LOWEST - _KNEES) * math.exp((_KNEES - needed) / (_LOWEST - _KNEES))
 
 
 def _lacking(body: Body, side: str, foot: FootPose) -> float:
