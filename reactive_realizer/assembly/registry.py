@@ -81,7 +81,7 @@ def _broken(group: str, point: EntryPoint, reason: str) -> RealizerError:
 
 
 def _source(point: EntryPoint) -> str:
-    """Where a plug-in is from: its distribution and its object."""
+    """Return the distribution and the object of a plug-in, for messages."""
     return point.value if point.dist is None else f"{point.dist.name} ({point.value})"
 
 

@@ -72,7 +72,7 @@ class BlockProblem:
 
     @property
     def stale(self) -> bool:
-        """Whether times from outside have moved since it was posed.
+        """Whether a time from outside has moved since the problem was posed.
 
         A later start of the block does not count: the times of a plan are relative to it.
         """
@@ -80,7 +80,7 @@ class BlockProblem:
         return any(_moved(cell.value, time, self.start) for cell, time in times if cell not in self.late)
 
     def depends_on(self, start: TimeCell) -> bool:
-        """Whether a time from outside depends on the start of the block."""
+        """Return whether the problem has a time from outside that depends on the start of its block."""
         cells = (*self.problem.times, *(cell for cell, _ in self.holds.values()))
         return any(cell.depends_on(start) for cell in cells)
 

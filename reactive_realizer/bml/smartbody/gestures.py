@@ -133,7 +133,7 @@ def loops(tree: Tree) -> bool:
 
 
 def ends(tree: Tree) -> bool:
-    """Return whether a clip ends of itself: it is no loop, or has an end or a duration."""
+    """Return whether a clip ends by itself: it is no loop, or has an end or a duration."""
     return not loops(tree) or bool({"end", "relax"} & set(tree.keys())) or _has_duration(tree)
 
 

@@ -55,7 +55,7 @@ _HALF_A_TURN = math.cos(0.5 * math.radians(172.0))
 
 
 class Detour(NamedTuple):
-    """How joints turn further on their way.
+    """The further turns of joints on the way between two poses.
 
     Attributes:
         bends: joint -> Euler angles in the axes of the joint above it, rad: how much further it bends midway in any
@@ -104,7 +104,7 @@ class Detour(NamedTuple):
         return way
 
     def _fits(self, joint: str, begin: Body, goal: Body) -> bool:
-        """Whether a joint turns the same way round as without a detour, and bends forward if it is an elbow."""
+        """Return whether a joint turns the same way round as without a detour, and no elbow bends backward."""
         start, end = begin.rotation(joint), goal.rotation(joint)
         same = math.copysign(1.0, _product(start, end))
         ways = [self._turned(joint, end, weight) for weight in _LARGEST]
@@ -206,7 +206,7 @@ class _Search:
 
 
 def _backward(elbow: Quat) -> float:
-    """By how much an elbow bends backward, rad."""
+    """Return the angle by which an elbow bends backward, rad; negative if it bends forward."""
     return rotation_vector(elbow)[0]
 
 

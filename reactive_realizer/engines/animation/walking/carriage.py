@@ -38,9 +38,10 @@ _BENT = 0.012
 _SOFTNESS = 0.012
 """Softness with which the pelvis is lowered for a leg that would not reach its foot, m."""
 
-_KNEES, _LOWEST = 0.06, 0.12
-"""How much lower the pelvis goes for a leg that would not reach its foot, and its limit, m: from there on, the foot is
-dragged along. A figure in a hurry that turns would sink to its knees otherwise."""
+_FREELY, _LOWEST = 0.06, 0.12
+"""Lowering of the pelvis for legs that do not reach their feet: where its limit begins to act, and the limit, m.
+
+A foot that is still not reached is dragged along. Without a limit, a fast figure that turns would sink to its knees."""
 
 _PELVIS_YAW = 0.16
 """Turn of the pelvis with the foot in front, rad per meter between the feet."""
@@ -116,14 +117,14 @@ class Carriage:
 
 
 def lowering(body: Body, feet: Sequence[FootPose], walking: float) -> float:
-    """Return how much lower the pelvis has to be for the legs to reach the feet that stand, m."""
+    """Return how much lower the pelvis goes for the legs to reach the feet that stand, m; at most `_LOWEST`."""
     softness = max(1e-4, _SOFTNESS * walking)
     needed = sum(
         foot.bears * _softly(_lacking(body, side, foot), softness) for side, foot in zip(SIDES, feet, strict=True)
     )
-    if needed <= _KNEES:
+    if needed <= _FREELY:
         return needed
-    return _LOWEST - (_LOWEST - _KNEES) * math.exp((_KNEES - needed) / (_LOWEST - _KNEES))
+    return _LOWEST - (_LOWEST - _FREELY) * math.exp((_FREELY - needed) / (_LOWEST - _FREELY))
 
 
 def _lacking(body: Body, side: str, foot: FootPose) -> float:
