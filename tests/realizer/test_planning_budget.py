@@ -2,11 +2,14 @@
 
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.names import BML, BMLT, OWN
+from reactive_realizer.engines.animation.motions import posture
+from reactive_realizer.engines.animation.posture.detour import FoundDetour, find_detour
 from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.realizer.session import replay
 from reactive_realizer.scheduler.block_planner import BlockPlanner, Planned
@@ -101,6 +104,29 @@ async def test_the_search_for_the_detours_of_postures_is_work_only_once(pilot: R
     assert pilot.feedback.time("first:start") >= 0.03
     assert pilot.feedback.time("second:start") <= 0.52
     assert pilot.feedback.warnings == []
+
+
+async def test_no_detour_is_searched_when_postures_start_from_another_base_than_expected(
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    searched: list[float] = []
+
+    def find(*arguments: Any) -> FoundDetour:
+        searched.append(pilot.now)
+        return find_detour(*arguments)
+
+    monkeypatch.setattr(posture, "find_detour", find)
+    for lexeme in ("CROSSED", "AKIMBO", "FORWARD"):
+        shift = f'<postureShift id="p"><pose part="ARMS" lexeme="ARMS_{lexeme}"/></postureShift>'
+        pilot.block(lexeme, shift, **{"bmla:preplan": "true"})
+    await pilot.advance(0.5)
+    pilot.block("sit", '<postureShift id="p"><stance type="SITTING"/></postureShift>')
+    await pilot.advance(4)
+    assert len(searched) == 4
+    pilot.block("go", **{"bmla:onStart": "CROSSED,AKIMBO,FORWARD"})
+    await pilot.advance(4)
+    assert [pilot.feedback.status(block) for block in ("sit", "CROSSED", "AKIMBO", "FORWARD")] == ["DONE"] * 4
+    assert len(searched) == 4
 
 
 async def test_computing_the_paths_of_gestures_is_work(pilot: RealizerPilot) -> None:

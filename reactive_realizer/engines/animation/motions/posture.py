@@ -49,7 +49,7 @@ _SWING = {
 }
 """Swing of the arms forward and aside meanwhile; otherwise the hands would pass through the rising thighs."""
 
-_LOOK = 25
+_LOOK = 45
 """Work of each pose that is looked at for its detour, as the limit `planning_per_tick` counts."""
 
 _MIDWAY = (0.25, 0.5, 0.75)
@@ -102,6 +102,7 @@ class PostureMotionUnit(MotionUnit):
         self._ready, self._relax = (self.key_positions.get(sync, 1.0) for sync in ("ready", "relax"))
         rest.check(BodyPosture(stance or rest.expected.stance, self.change[1]))
         self._update_goal(rest.expected)
+        self._find_detour()
         # If only the arms move, other postures of the body make no difference.
         starts = (self._from,) if self._root is None else (self._from, *rest.possible_bodies)
         self.fade_in = max(map(self._duration_from, starts))
@@ -126,6 +127,9 @@ class PostureMotionUnit(MotionUnit):
         self.joints = frozenset(turned)
         self._goal = {joint: self.body.rotation(joint) for joint in turned}
         self._root = None if turned.isdisjoint(PART_JOINTS[PosePart.LEGS]) else self.body.root
+
+    def _find_detour(self) -> None:
+        """Find the way of the arms around the body from the base posture."""
         bends = self._bends(self._from)
         if self.joints.isdisjoint(_SWING):
             self._detour = Detour(bends).limited(self._from, self.body)
@@ -165,8 +169,8 @@ class PostureMotionUnit(MotionUnit):
         """Start. The base posture may differ from the expected one, and another posture may still play."""
         if self._rest.posture != self._base:
             self._update_goal(self._rest.posture)
-        if self._root is not None:
-            self._detour = self._detour._replace(bends=self._bends(body)).limited(self._from, self.body)
+        # A search from there would hold up the tick. Each frame keeps the arms clear of what this way leaves.
+        self._detour = self._detour._replace(bends=self._bends(body)).limited(self._from, self.body)
 
     def pose(self, moment: Moment) -> MotionPose:
         """Return the posture, weighted by the phase."""

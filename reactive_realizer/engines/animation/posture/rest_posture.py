@@ -1,6 +1,7 @@
 """The rest posture of a figure."""
 
 from collections.abc import Callable, Iterable
+from functools import lru_cache
 from pathlib import Path
 
 from reactive_realizer.bml.behaviors import Pose
@@ -8,6 +9,9 @@ from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.clearance import Clear
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
+
+_REMEMBERED = 64
+"""Postures whose bodies are remembered: bringing the arms out of flesh takes a millisecond."""
 
 
 class RestPosture:
@@ -38,7 +42,8 @@ class RestPosture:
         self._expected = expected
         self._possible_bodies = possible_bodies
         self.posture = BodyPosture()
-        self.body = clear(library.body(self.posture), 0.0)
+        self._resting = lru_cache(_REMEMBERED)(self._body)
+        self.body = self._resting(self.posture)
 
     @property
     def pose(self) -> JointRotations:
@@ -69,7 +74,7 @@ class RestPosture:
         first = BodyPosture()
         if self.posture == first:
             return False
-        self.adopt(first, self.clear(self._library.body(first), 0.0))
+        self.adopt(first, self._resting(first))
         return True
 
     def check(self, posture: BodyPosture) -> None:
@@ -99,4 +104,7 @@ class RestPosture:
         """
         if posture == self.posture:
             return self.body
-        return self.clear(self._library.body(self._library.possible(posture)), 0.0)
+        return self._resting(self._library.possible(posture))
+
+    def _body(self, posture: BodyPosture) -> Body:
+        return self.clear(self._library.body(posture), 0.0)
