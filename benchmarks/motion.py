@@ -1,16 +1,16 @@
-"""Measures how smoothly a figure moves in random scenes, the range of its arms, and how deep they are in it."""
+"""Measures how smoothly a figure moves and walks in random scenes, and the range and depth of its arms."""
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Awaitable, Callable, Sequence
 
 import numpy as np
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.testing.motion_laws import arm_ranges, hand_depth, worst_motion
-from reactive_realizer.testing.motion_scenes import play_scene
-from reactive_realizer.testing.pilot import open_pilot
+from reactive_realizer.testing.motion_laws import arm_ranges, foot_slide, hand_depth, worst_motion
+from reactive_realizer.testing.motion_scenes import play_scene, play_walk
+from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
 AIMS = {
     "wrist_m_s2.p99": 60,
@@ -21,31 +21,39 @@ AIMS = {
     "supination_deg": 85,
     "radial_deg": 25,
     "ulnar_deg": 35,
+    "walking.wrist_m_s2.p99": 60,
+    "walking.foot_slide_cm.p90": 1,
 }
 
 _PERCENTILES = {"p50": 50, "p90": 90, "p99": 99, "max": 100}
+
+
+Play = Callable[[int, RealizerPilot], Awaitable[None]]
 
 
 def measure(scenes: int = 200) -> dict[str, object]:
     """Percentiles over the scenes of the worst value in each, and the furthest that the arms turn in any of them.
 
     Args:
-        scenes: number of scenes; the first ones are always the same.
+        scenes: number of scenes, and of walks; the first ones are always the same.
     """
-    worst, ranges = [], []
+    worst, ranges, walks = [], [], []
     for seed in range(scenes):
-        bodies, avatar = asyncio.run(_bodies(seed))
+        bodies, avatar = asyncio.run(_bodies(play_scene, seed))
         worst.append({**worst_motion(bodies), "hand_depth_cm": 100.0 * hand_depth(bodies, avatar)})
         ranges.append(arm_ranges(bodies))
+        walk, _ = asyncio.run(_bodies(play_walk, seed))
+        walks.append({"wrist_m_s2": worst_motion(walk)["wrist_m_s2"], "foot_slide_cm": 100.0 * foot_slide(walk)})
     return {
         **{law: _percentiles([each[law] for each in worst]) for law in worst[0]},
         **{name: max(each[name] for each in ranges) for name in ranges[0]},
+        "walking": {law: _percentiles([each[law] for each in walks]) for law in walks[0]},
     }
 
 
-async def _bodies(seed: int) -> tuple[list[Body], Avatar]:
+async def _bodies(play: Play, seed: int) -> tuple[list[Body], Avatar]:
     async with open_pilot(SceneOptions(voice="text")) as pilot:
-        await play_scene(seed, pilot)
+        await play(seed, pilot)
         figure, *_ = pilot.realizer.characters.values()
         return pilot.bodies(), figure.humanoid.avatar
 

@@ -1,4 +1,4 @@
-"""Measures what the laws of motion limit, in the bodies of successive frames: accelerations, and ranges of joints."""
+"""Measures what the laws of motion limit, in the bodies of successive frames: accelerations, slides, and ranges."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -13,9 +13,16 @@ from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.clearance import Clearance
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.quaternion import Quat, difference, rotation_vector
+from reactive_realizer.embodiment.quaternion import Quat, difference, rotate, rotation_vector
+from reactive_realizer.embodiment.vector import ZERO, Vec3, add
 
 _FRAME = FRAME_EVERY / RATE
+TOUCHING = 0.004
+"""A part of a sole that is lower than this above where it is in standing touches the ground, m."""
+
+_HEEL = 0.045
+"""How far the heel is behind the ankle, m."""
+
 _WRISTS, _ELBOWS = (tuple(f"{side}_{joint}" for side in SIDES) for joint in ("wrist", "elbow"))
 
 
@@ -48,6 +55,39 @@ def hand_depth(bodies: Iterable[Body], avatar: Avatar) -> float:
         avatar: whose skin tells how thick they are.
     """
     return max(0.0, *map(Clearance.of(avatar).deepest, bodies))
+
+
+def foot_slide(bodies: Sequence[Body]) -> float:
+    """Return the longest way of a heel or of the ball of a foot over the ground while it touches it, m.
+
+    Args:
+        bodies: of successive frames, one or more, in world coordinates.
+    """
+    standing = Body(bodies[0].skeleton)
+    longest = 0.0
+    for side in SIDES:
+        below = (0.0, -standing.transform(f"{side}_ankle").position[1], -_HEEL)
+        for joint, offset in ((f"{side}_ankle", below), (f"{side}_midtarsal", ZERO)):
+            touching = point_of(standing, joint, offset)[1] + TOUCHING
+            longest = max(longest, _slide([point_of(body, joint, offset) for body in bodies], touching))
+    return longest
+
+
+def point_of(body: Body, joint: str, offset: Vec3) -> Vec3:
+    """Return the place of a point at an offset from a joint, in the axes of the joint, m."""
+    here = body.transform(joint)
+    return add(here.position, rotate(here.rotation, offset))
+
+
+def _slide(track: Iterable[Vec3], touching: float) -> float:
+    longest, since = 0.0, None
+    for x, y, z in track:
+        if y > touching:
+            since = None
+            continue
+        since = since or (x, z)
+        longest = max(longest, math.dist(since, (x, z)))
+    return longest
 
 
 def velocities(bodies: Sequence[Body], joint: str) -> NDArray[np.float64]:

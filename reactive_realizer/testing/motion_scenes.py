@@ -38,6 +38,12 @@ _STARTS = ("", "", ' start="0.2"', ' start="anticipators:t:hit-0.6"')
 _STROKES = (' stroke="0.6"', ' stroke="1.2"', ' stroke="anticipators:t:hit"', ' ready="0.5"')
 _COMPOSITIONS = ("MERGE", "MERGE", "REPLACE", "REPLACE", "APPEND")
 _PREDICTIONS_PER_SECOND = 10.0
+_WALKING = 9.0
+"""Duration of a scene in which a figure walks, s."""
+
+_SPEEDS = {"WALK": (0.5, 2.1), "RUN": (2.0, 3.5), "STRAFE": (0.2, 0.7)}
+"""Bounds of the speed in each manner, m/s."""
+
 _NOISE = 0.15
 """Standard deviation of the error of a prediction one second ahead, s; it shrinks as the point comes nearer."""
 
@@ -49,6 +55,15 @@ async def play_scene(seed: int, pilot: RealizerPilot) -> None:
         await pilot.advance(max(0.0, time - pilot.now))
         give(pilot)
     await pilot.advance(_DURATION - pilot.now)
+
+
+async def play_walk(seed: int, pilot: RealizerPilot) -> None:
+    """Plays a random walk on a pilot that has just been opened, and records its frames."""
+    pilot.watch()
+    for time, give in random_walk(seed):
+        await pilot.advance(max(0.0, time - pilot.now))
+        give(pilot)
+    await pilot.advance(_WALKING - pilot.now)
 
 
 class Input(NamedTuple):
@@ -66,6 +81,32 @@ def random_scene(seed: int) -> list[Input]:
     """
     random = Random(seed)
     return sorted((*_blocks(random), *_predictions(random)), key=lambda each: each.time)
+
+
+def random_walk(seed: int) -> list[Input]:
+    """Return the inputs of a walk, in order of time.
+
+    A figure walks, runs and steps aside to two or three places, at speeds up to the highest of each manner; what comes
+    next follows or replaces what it does. It gestures meanwhile.
+    """
+    random = Random(seed)
+    inputs, time = [], random.uniform(0.1, 0.4)
+    for number in range(random.choice((2, 3))):
+        inputs.append(Input(time, partial(_send, f"w{number}", _way(random), random.choice(("APPEND", "REPLACE")))))
+        time += random.uniform(1.0, 2.5)
+        if random.random() < 0.3:
+            gesture = f'<gesture id="g" lexeme="{random.choice(_GESTURES)}"/>'
+            inputs.append(Input(time - 0.5, partial(_send, f"g{number}", gesture, "MERGE")))
+    return inputs
+
+
+def _way(random: Random) -> str:
+    manner = random.choice(("WALK", "WALK", "RUN", "STRAFE"))
+    speed = random.uniform(*_SPEEDS[manner])
+    furthest = 1.0 if manner == "STRAFE" else 4.0
+    x, z = (random.uniform(-furthest, furthest) for _ in range(2))
+    parameter = f'<bmlt:parameter name="speed" value="{speed:.2f}"/>'
+    return f'<locomotion id="m0" target="{x:.2f} {z:.2f}" manner="{manner}">{parameter}</locomotion>'
 
 
 def _blocks(random: Random) -> Iterator[Input]:

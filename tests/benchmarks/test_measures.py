@@ -59,6 +59,7 @@ KEYS: dict[str, set[str]] = {
             for part in ("p50", "p90", "p99", "max")
         ),
         *(f"{way}_deg" for way in ("pronation", "supination", "radial", "ulnar")),
+        *(f"walking.{law}.{part}" for law in ("wrist_m_s2", "foot_slide_cm") for part in ("p50", "p90", "p99", "max")),
     },
     "physics": {
         *(f"momentum_error.{whose}.{step}" for whose in ("ours", "all_physical") for step in ("5", "2.5", "1")),

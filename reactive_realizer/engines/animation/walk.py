@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Transform
 from reactive_realizer.embodiment.humanoid import Humanoid
-from reactive_realizer.embodiment.pose import Layer, LayerKind, turned_further
+from reactive_realizer.embodiment.pose import Layer, turned_further
 from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engines.animation.easing import smoothstep
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionUnit
-from reactive_realizer.engines.animation.walking.carriage import Carriage, limbs, lowering
+from reactive_realizer.engines.animation.walking.carriage import Carriage
 from reactive_realizer.engines.animation.walking.progression import Goal
 from reactive_realizer.engines.animation.walking.walker import Walker
 
@@ -73,5 +73,5 @@ class Walk:
         body = turned_further(rest, pelvis)
         poses = self._walker.poses(body)
         self.feet = tuple(pose.ankle for pose in poses)
-        lowered = Layer(LayerKind.ADDITIVE, {}, root=(0.0, -lowering(body, poses, walking), 0.0))
-        return pelvis, lowered, limbs(self._walker.progression, poses, rest)
+        lowered = self._carriage.lowered(body, poses, walking)
+        return pelvis, lowered, self._carriage.limbs(self._walker.progression, poses, rest)

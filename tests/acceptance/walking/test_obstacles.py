@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
+from reactive_realizer.testing.motion_laws import foot_slide
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 
-from .tracks import deepest, place, slide
+from .tracks import deepest, place
 
 SCENE = """
 [character.alice]
@@ -63,7 +64,7 @@ async def test_a_figure_walks_around_an_object_with_a_radius(pilot: RealizerPilo
     bodies = pilot.bodies("alice")
     assert nearest(pilot, 0.1, 2.0) > 0.5 + BODY - 0.05
     assert math.dist(place(bodies[-1]), (0.0, 4.0)) == pytest.approx(0.5, abs=0.04)
-    assert slide(bodies) < 0.01
+    assert foot_slide(bodies) < 0.01
     assert deepest(bodies) > -0.01
     assert pilot.feedback.reached("b:w:end")
     assert pilot.feedback.warnings == []
@@ -90,7 +91,7 @@ async def test_a_figure_goes_around_what_comes_into_its_way(pilot: RealizerPilot
     await pilot.advance(6)
     assert nearest(pilot, 0.1, 2.2) > 0.5 + BODY - 0.1
     assert math.dist(place(pilot.bodies("alice")[-1]), (0.0, 4.0)) == pytest.approx(0.5, abs=0.04)
-    assert slide(pilot.bodies("alice")) < 0.01
+    assert foot_slide(pilot.bodies("alice")) < 0.01
 
 
 async def test_a_place_that_obstacles_enclose_is_refused(pilot: RealizerPilot) -> None:

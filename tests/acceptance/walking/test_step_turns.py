@@ -9,10 +9,11 @@ import pytest
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.vector import Vec3, subtract, unit
+from reactive_realizer.testing.motion_laws import foot_slide
 from reactive_realizer.testing.pilot import RealizerPilot, open_pilot
 from tests.acceptance.gaze.seen import between, miss
 
-from .tracks import deepest, heading, slide
+from .tracks import deepest, heading
 
 SCENE = """
 [character.alice]
@@ -55,7 +56,7 @@ async def test_the_feet_turn_a_figure_to_what_is_behind_it_and_back(pilot: Reali
     assert max(miss(body, (-0.5, 1.5, -2.0)) for body in bodies[ready + 2 : relax]) < 1.0
     assert heading(bodies[ready + 2]) == pytest.approx(BEHIND + 30.0, abs=2.0)
     assert heading(bodies[end + 2]) == pytest.approx(0.0, abs=2.0)
-    assert slide(bodies) < 0.01
+    assert foot_slide(bodies) < 0.01
     assert deepest(bodies) > -0.01
     assert pilot.feedback.warnings == []
 
@@ -80,7 +81,7 @@ async def test_the_feet_follow_a_target_that_moves_behind_the_figure(pilot: Real
     pilot.realizer.world.move("front", (-2.0, 1.5, -1.6))
     await pilot.advance(2.5)
     assert headings(pilot)[-1] == pytest.approx(math.degrees(math.atan2(-2.0, -1.6)) + 30.0, abs=2.0)
-    assert slide(pilot.bodies("alice")) < 0.01
+    assert foot_slide(pilot.bodies("alice")) < 0.01
 
 
 async def test_an_interrupted_gaze_turns_back(pilot: RealizerPilot) -> None:
@@ -122,7 +123,7 @@ async def test_the_feet_turn_a_figure_that_points_behind_it_and_back(pilot: Real
     assert max(off_line(body, side, target) for body in bodies[ready + 1 : relax]) < 2.0
     assert heading(bodies[ready + 2]) == pytest.approx(BEHIND + 30.0, abs=2.0)
     assert heading(bodies[end + 2]) == pytest.approx(0.0, abs=2.0)
-    assert slide(bodies) < 0.01
+    assert foot_slide(bodies) < 0.01
     assert pilot.feedback.warnings == []
 
 

@@ -7,13 +7,11 @@ import numpy.typing as npt
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.joints import ROOT
-from reactive_realizer.embodiment.quaternion import rotate, twist
-from reactive_realizer.embodiment.vector import UP, Vec3, add
+from reactive_realizer.embodiment.quaternion import twist
+from reactive_realizer.embodiment.vector import UP
+from reactive_realizer.testing.motion_laws import TOUCHING, point_of
 
 FRAME = 0.02
-TOUCHING = 0.004
-"""A part of a sole that is lower than this above the ground touches it, m."""
-
 Values = npt.NDArray[np.float64]
 
 
@@ -40,37 +38,6 @@ def speeds(bodies: list[Body]) -> Values:
     return ways
 
 
-def slide(bodies: list[Body]) -> float:
-    """The longest way of a heel or of the ball of a foot over the ground while it touches it, m."""
-    standing = Body(bodies[0].skeleton)
-    longest = 0.0
-    for side in "lr":
-        ankle = standing.transform(f"{side}_ankle").position
-        parts = {"ankle": (0.0, -ankle[1], -0.045), "midtarsal": (0.0, 0.0, 0.0)}
-        for joint, offset in parts.items():
-            track = np.array([part_of(body, f"{side}_{joint}", offset) for body in bodies])
-            low = part_of(standing, f"{side}_{joint}", offset)[1]
-            longest = max(longest, _slide(track, low))
-    return longest
-
-
-def part_of(body: Body, joint: str, offset: Vec3) -> Vec3:
-    """The place of a point at an offset from a joint, in its axes."""
-    here = body.transform(joint)
-    return add(here.position, rotate(here.rotation, offset))
-
-
-def _slide(track: Values, low: float) -> float:
-    longest, since = 0.0, None
-    for point in track:
-        if point[1] > low + TOUCHING:
-            since = None
-            continue
-        since = point if since is None else since
-        longest = max(longest, float(np.hypot(*(point - since)[[0, 2]])))
-    return longest
-
-
 def deepest(bodies: list[Body]) -> float:
     """How deep a heel or the ball of a foot has been in the ground, m."""
     standing = Body(bodies[0].skeleton)
@@ -90,7 +57,7 @@ def flights(bodies: list[Body]) -> int:
 def _lifted(body: Body, standing: Body, side: str) -> bool:
     heel = (0.0, -standing.transform(f"{side}_ankle").position[1], -0.045)
     parts = ((f"{side}_ankle", heel), (f"{side}_midtarsal", (0.0, 0.0, 0.0)))
-    return all(part_of(body, *part)[1] > part_of(standing, *part)[1] + TOUCHING for part in parts)
+    return all(point_of(body, *part)[1] > point_of(standing, *part)[1] + TOUCHING for part in parts)
 
 
 def knees(bodies: list[Body]) -> Values:

@@ -5,12 +5,12 @@ from collections.abc import Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
-from reactive_realizer.embodiment.feet import reach
 from reactive_realizer.embodiment.joints import ROOT, SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.embodiment.quaternion import Quat, from_euler, multiply, twist
-from reactive_realizer.embodiment.vector import UP, Vec3, subtract
+from reactive_realizer.embodiment.vector import UP
 from reactive_realizer.engines.animation.easing import share, smoothstep
+from reactive_realizer.engines.animation.walking.pelvis_height import PelvisHeight
 from reactive_realizer.engines.animation.walking.progression import Axis, Progression
 from reactive_realizer.engines.animation.walking.walker import FootPose, Walker
 
@@ -26,30 +26,13 @@ _SWAY_GAIN = 5.0
 _GAP = 0.1
 """A figure that was shown longer ago than this sets out anew, s."""
 
-_PENDULUM, _DEEPEST = 0.09, 0.06
-"""How much lower the pelvis is with the feet apart, 1/m (it grows with their squared distance), and its limit, m."""
-
-_WIDE_PENDULUM = 0.3
-"""The same for feet that are aside of where they are at rest, 1/m."""
-
-_BENT = 0.012
-"""How much lower the pelvis is in walking than the legs would need, m: knees are never locked."""
-
-_SOFTNESS = 0.012
-"""Softness with which the pelvis is lowered for a leg that would not reach its foot, m."""
-
-_FREELY, _LOWEST = 0.06, 0.12
-"""Lowering of the pelvis for legs that do not reach their feet: where its limit begins to act, and the limit, m.
-
-A foot that is still not reached is dragged along. Without a limit, a fast figure that turns would sink to its knees."""
-
 _PELVIS_YAW = 0.16
 """Turn of the pelvis with the foot in front, rad per meter between the feet."""
 
 _PELVIS_ROLL = 1.3
 """Roll of the pelvis toward the foot in the air, rad per meter of its sway."""
 
-_ARM_SWING, _RUNNING_ARM_SWING = 0.55, 0.75
+_ARM_SWING, _RUNNING_ARM_SWING = 0.5, 0.33
 """Swing of each arm with the foot of the other side, rad per meter between the feet."""
 
 _ASIDE = 0.06
@@ -65,21 +48,24 @@ _LEAN, _LEAN_TO_START = 0.025, 0.02
 """Lean of the trunk, rad per m/s of speed and per m/s^2 of acceleration."""
 
 _RUNNING_FROM, _RUNNING_AT = 1.4, 2.4
-"""Speeds between which the arms begin to move as in running, m/s."""
+"""Speeds between which a figure begins to move as in running, m/s."""
+
+_RUNNING_GAIN = 8.0
+"""How fast it does, also when the manner changes at once, 1/s."""
 
 
 class Carriage:
     """Moves the upper body with the feet, so that it follows whatever they do.
 
-    Pelvis and arms are functions of the places of the feet: the pelvis turns with the foot in front, is lowest when the
-    feet are apart, as an inverted pendulum, and each arm swings with the foot of the other side (M. P. Murray and
-    others, "Walking patterns of normal men", Journal of Bone and Joint Surgery 46-A, 1964). The amounts are our choice,
-    within human ranges.
+    Pelvis and arms are functions of the places of the feet: the pelvis turns with the foot in front, and each arm
+    swings with the foot of the other side (M. P. Murray and others, "Walking patterns of normal men", Journal of Bone
+    and Joint Surgery 46-A, 1964). The amounts are our choice, within human ranges.
     """
 
     def __init__(self) -> None:
-        self._sway = Axis(0.0)
-        self._time = GlobalTime(0.0)
+        self._sway = self._running = Axis(0.0)
+        self._time, self._passed = GlobalTime(-math.inf), math.inf
+        self._height = PelvisHeight()
 
     def pelvis(self, now: GlobalTime, walker: Walker, rest: Body, walking: float) -> Layer:
         """Return the additive layer of the pelvis, and of the trunk that balances it.
@@ -92,12 +78,17 @@ class Carriage:
         """
         spots = walker.over_ground()
         apart = spots[1][2] - spots[0][2]
-        aside = self._aside(now, spots, walker.bearing)
+        passed, self._time = now - self._time, now
+        self._passed = passed if passed <= _GAP else math.inf
+        bearing, runs = walker.bearing, _running(walker.progression)
+        sway = 0.0 if bearing is None else _SWAY * max(-_WIDEST, min(_WIDEST, spots[bearing][0]))
+        self._sway = _followed(self._sway, sway, _SWAY_GAIN, self._passed, Axis(0.0))
+        self._running = _followed(self._running, runs, _RUNNING_GAIN, self._passed, Axis(runs))
+        aside = self._sway.at
         forward, change = walker.progression.forward
         yaw, roll = _PELVIS_YAW * apart, _PELVIS_ROLL * aside
         lean = _LEAN * forward + _LEAN_TO_START * change
-        wide = max(0.0, spots[0][0] - spots[1][0] - 2.0 * _WIDEST)
-        down = min(_DEEPEST, _BENT * walking + _PENDULUM * apart * apart + _WIDE_PENDULUM * wide * wide)
+        down = self._height.swung(apart, spots[0][0] - spots[1][0], self._running.at, walking)
         turns = {
             ROOT: from_euler(0.3 * lean, yaw, roll),
             "vl5": from_euler(0.7 * lean, -yaw, -roll),
@@ -106,66 +97,53 @@ class Carriage:
         }
         return Layer(LayerKind.ADDITIVE, turns, root=(aside, -down, 0.0))
 
-    def _aside(self, now: GlobalTime, spots: Sequence[Vec3], bearing: int | None) -> float:
-        """Return how far the pelvis is to the left, m."""
-        passed, self._time = now - self._time, now
-        if passed > _GAP:
-            self._sway, passed = Axis(0.0), 0.0
-        goal = 0.0 if bearing is None else _SWAY * max(-_WIDEST, min(_WIDEST, spots[bearing][0]))
-        self._sway = self._sway.driven(_SWAY_GAIN * (goal - self._sway.at), 4.0 * _SWAY_GAIN, passed)
-        return self._sway.at
+    def lowered(self, body: Body, feet: Sequence[FootPose], walking: float) -> Layer:
+        """Return the additive layer of the pelvis that goes down for the legs to reach the feet that stand.
+
+        Args:
+            body: with the pelvis of `pelvis`, in the same frame.
+            feet: left first.
+            walking: how much of it is to be seen, 0 to 1.
+        """
+        return Layer(LayerKind.ADDITIVE, {}, root=(0.0, -self._height.lowered(self._passed, body, feet, walking), 0.0))
+
+    def limbs(self, progression: Progression, feet: Sequence[FootPose], rest: Body) -> Layer:
+        """Return the layer of arms, hips and toes.
+
+        Args:
+            progression: of the figure.
+            feet: left first.
+            rest: the body at rest.
+        """
+        arms = _arms(progression.forward[0], self._running.at, feet, rest)
+        turns = {**arms, **_toes(feet, rest), **_hips(feet, rest)}
+        return Layer(LayerKind.FULL_BODY, {joint: turn for joint, turn in turns.items() if joint in rest.skeleton})
 
 
-def lowering(body: Body, feet: Sequence[FootPose], walking: float) -> float:
-    """Return how much lower the pelvis goes for the legs to reach the feet that stand, m; at most `_LOWEST`."""
-    softness = max(1e-4, _SOFTNESS * walking)
-    needed = sum(
-        foot.bears * _softly(_lacking(body, side, foot), softness) for side, foot in zip(SIDES, feet, strict=True)
-    )
-    if needed <= _FREELY:
-        return needed
-    return _LOWEST - (_LOWEST - _FREELY) * math.exp((_FREELY - needed) / (_LOWEST - _FREELY))
+def _followed(axis: Axis, goal: float, gain: float, passed: float, first: Axis) -> Axis:
+    """Return the motion of a value that follows a goal with a gain, 1/s; the first one if it sets out anew."""
+    return first if passed == math.inf else axis.driven(gain * (goal - axis.at), 4.0 * gain, passed)
 
 
-def _lacking(body: Body, side: str, foot: FootPose) -> float:
-    """Return how much lower the pelvis must be for a leg to reach its foot, m; negative if the leg reaches it."""
-    x, y, z = subtract(body.transform(f"{side}_hip").position, foot.ankle.position)
-    return y - math.sqrt(max(0.0, reach(body.skeleton, side) ** 2 - x * x - z * z))
-
-
-def _softly(lacking: float, softness: float) -> float:
-    """Return a length, or nearly 0 if it is negative."""
-    return lacking if lacking > 30.0 * softness else softness * math.log1p(math.exp(lacking / softness))
-
-
-def limbs(progression: Progression, feet: Sequence[FootPose], rest: Body) -> Layer:
-    """Return the layer of arms, hips and toes.
-
-    Args:
-        progression: of the figure.
-        feet: left first.
-        rest: the body at rest.
-    """
-    turns = {**_arms(progression, feet, rest), **_toes(feet, rest), **_hips(feet, rest)}
-    return Layer(LayerKind.FULL_BODY, {joint: turn for joint, turn in turns.items() if joint in rest.skeleton})
-
-
-def _arms(progression: Progression, feet: Sequence[FootPose], rest: Body) -> Mapping[str, Quat]:
+def _arms(speed: float, running: float, feet: Sequence[FootPose], rest: Body) -> Mapping[str, Quat]:
     """Return shoulders and elbows."""
     left, right = (foot.ankle.position[2] for foot in feet)
-    apart, speed = right - left, progression.forward[0]
-    runs = progression.goal is not None and progression.goal.manner.flies
-    running = smoothstep(share(speed, _RUNNING_FROM, _RUNNING_AT)) if runs else 0.0
-    swing = _ARM_SWING + running * (_RUNNING_ARM_SWING - _ARM_SWING)
+    swing = (_ARM_SWING + running * (_RUNNING_ARM_SWING - _ARM_SWING)) * (right - left)
     going = smoothstep(share(abs(speed), 0.0, 1.0))
     bent, aside = _ELBOW * going + running * _RUNNING_ELBOW, _ASIDE * going
     turns = {}
-    for side, forward, outward in (("l", swing * apart, aside), ("r", -swing * apart, -aside)):
+    for side, forward, outward in (("l", swing, aside), ("r", -swing, -aside)):
         bend = bent + _FORWARD_ELBOW * max(0.0, forward)
         shoulder, elbow = f"{side}_shoulder", f"{side}_elbow"
         turns[shoulder] = multiply(from_euler(-forward, 0.0, outward), rest.rotation(shoulder))
         turns[elbow] = multiply(from_euler(-bend, 0.0, 0.0), rest.rotation(elbow))
     return turns
+
+
+def _running(progression: Progression) -> float:
+    """Return how much a figure moves as in running, 0 to 1."""
+    runs = progression.goal is not None and progression.goal.manner.flies
+    return smoothstep(share(progression.forward[0], _RUNNING_FROM, _RUNNING_AT)) if runs else 0.0
 
 
 def _toes(feet: Sequence[FootPose], rest: Body) -> Mapping[str, Quat]:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import NamedTuple
 
+from reactive_realizer.engines.animation.easing import share
+
 TURNING = 2.0
 """Speed at which the feet turn a figure, rad/s: less than 60 degrees with each step."""
 
@@ -17,6 +19,9 @@ _STARTING = 0.4
 
 _TWO_STEPS = 0.8
 """Least duration of any change of place: each foot steps once, s."""
+
+_WALKING_SUPPORT = 0.2
+"""How long both feet are on the ground in walking, relative to the time from step to step."""
 
 _USUAL_CADENCE, _USUAL_SPEED, _CADENCE_POWER = 1.9, 1.2, 0.58
 """Steps per second at a speed, m/s, and how they grow with speed: D. W. Grieve and R. J. Gear, "The relationships
@@ -63,8 +68,9 @@ class Manner:
 
     def double_support(self, speed: float) -> float:
         """Return how long both feet are on the ground, relative to the time from step to step; negative in flight."""
-        running = min(1.0, max(0.0, (speed - 1.2) / 1.0)) if self.flies else 0.0
-        return 0.2 - 0.5 * running
+        if not self.flies:
+            return _WALKING_SUPPORT
+        return _WALKING_SUPPORT - 0.5 * share(speed, 1.2, 2.2) - 0.1 * share(speed, 2.8, 4.0)
 
     def period(self, speed: float) -> float:
         """Return the time from step to step at a speed, s."""

@@ -1,7 +1,7 @@
 """The progression of a figure over the ground: its speed eases in and out, whatever happens to the goal on the way."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, Self
 
 from reactive_realizer.clock.units import GlobalTime
@@ -23,6 +23,12 @@ _YAW_GAIN = 2.5
 _ASIDE = 0.6
 """A figure does not turn into a way that is shorter, m: it steps aside or back."""
 
+_SETTLING, _GENTLE, _GENTLE_TURN = 0.3, 4.0, 8.0
+"""A little way or turn that is left, also if the figure ends at once, takes up to this time, s, with accelerations up
+to these, m/s^2 and rad/s^2."""
+
+_HARDEST = 10.0 / math.sqrt(3.0)
+"""Highest acceleration of a way with the least jerk, relative to the way over the square of its time."""
 
 _PASSED = 0.1
 """A figure that is nearer to a corner of its way turns into the next leg, m."""
@@ -92,7 +98,7 @@ class Progression:
 
     Attributes:
         x, z, heading: the motion of the figure's frame in the world.
-        goal: the present one.
+        goal: the present one. Its end is later than that which was asked for if the figure cannot arrive in time.
     """
 
     def __init__(self, place: Place) -> None:
@@ -101,6 +107,7 @@ class Progression:
         self.x, self.z, self.heading = Axis(x), Axis(z), Axis(heading)
         self.goal: Goal | None = None
         self._corners: tuple[Ground, ...] = ()
+        self._arriving = False
 
     @property
     def place(self) -> Place:
@@ -131,7 +138,7 @@ class Progression:
 
     def pursue(self, goal: Goal) -> None:
         """Go to another goal from now on."""
-        self.goal, self._corners = goal, goal.corners
+        self.goal, self._corners, self._arriving = goal, goal.corners, False
 
     def brake(self, now: GlobalTime, manner: Manner) -> None:
         """Come to rest on the way, as soon as it looks natural."""
@@ -165,8 +172,12 @@ class Progression:
         tail = turning_time(between_headings(last, goal.place.heading)) if faces else 0.0
         left = goal.end - tail - now
         arrives = left <= manner.braking and not self._corners
+        if arrives and not self._arriving:
+            self._arriving = True
+            if (needed := self._arrival_time(goal, way)) > left:
+                left, goal = needed, replace(goal, end=GlobalTime(now + needed + tail))
+                self.goal = goal
         if arrives:
-            left = max(left, min(1.875 * way / manner.top, manner.braking))
             self.x = self.x.arriving(goal_x, left, passed)
             self.z = self.z.arriving(goal_z, left, passed)
         else:
@@ -176,6 +187,12 @@ class Progression:
             self.x = self.x.driven(speed * math.sin(direction), _AGILITY, passed)
             self.z = self.z.driven(speed * math.cos(direction), _AGILITY, passed)
         self._turn(goal, now, passed, direction if faces and not arrives else None)
+
+    def _arrival_time(self, goal: Goal, way: float) -> float:
+        """Return the least time in which the figure comes to rest at its goal, over the way that is left, m; s."""
+        turn = abs(between_headings(self.heading.at, goal.place.heading))
+        settling = math.sqrt(_HARDEST * max(way / _GENTLE, turn / _GENTLE_TURN))
+        return max(min(1.875 * way / goal.manner.top, goal.manner.braking), min(_SETTLING, settling))
 
     def _points_ahead(self, goal: Ground) -> tuple[Ground, ...]:
         """Return the present point, and the corners that lie ahead with the goal."""

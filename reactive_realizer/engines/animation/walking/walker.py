@@ -9,7 +9,7 @@ from reactive_realizer.embodiment.feet import reach, walks
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.place import Footprint, Place, PlannedSteps, between_headings
 from reactive_realizer.embodiment.quaternion import conjugate, multiply
-from reactive_realizer.embodiment.vector import Vec3, distance
+from reactive_realizer.embodiment.vector import Vec3, distance, subtract
 from reactive_realizer.engines.animation.easing import share
 from reactive_realizer.engines.animation.walking.manner import WALK
 from reactive_realizer.engines.animation.walking.progression import Goal, Progression
@@ -41,6 +41,12 @@ _LEAD = 0.6
 
 _WORTH = 0.1
 """A foot does not step to a print that is nearer than this, m, as long as the figure walks on."""
+
+_FURTHEST, _FURTHEST_RUNNING = 0.55, 0.45
+"""Distance to which a standing foot is left behind in a step of the other one, m."""
+
+_PARTS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)
+"""Parts of a step that are tried for that: a figure that speeds up or turns takes shorter steps."""
 
 _HOME, _HOME_TURN = 0.002, 0.01
 """A foot nearer than this to where it stands at rest is there, m and rad."""
@@ -101,9 +107,9 @@ class Walker:
                 self._set_out(rest)
             self._pursue(goal)
         elif self._pursued is not None:
-            self._pursued = None
-            if self.progression.goal is not None and now < self.progression.goal.end:
-                self.progression.brake(since, self.progression.goal.manner)
+            ended, self._pursued = self._pursued, None
+            if now < ended.end:
+                self.progression.brake(since, ended.manner)
         if not self.feet:
             return
         while since < now - 1e-9:
@@ -237,17 +243,30 @@ class Walker:
         if left < 4.0 * period:
             period = min(_LONGEST_STEP, max(_SHORTEST_STEP, left / count))
         support = manner.double_support(soon.speed)
-        swing = period * (1.0 - support)
+        last = count <= 2 or left <= 0.0
         if count == 1:
             swing = max(0.8 * _SHORTEST_STEP, left)
+        else:
+            usual, period = period, self._in_reach(other, now, period, flies=support < 0.0)
+            last = last and period == usual
+            swing = period * (1.0 - support)
         until = GlobalTime(now + swing)
-        last = count <= 2 or left <= 0.0
         target = self._home(foot, goal.place) if last else self._landing(number, until, period, support)
         if not last and not self._worth(foot, target):
             return
         forward = self._share_ahead(soon)
         foot.lift_off(target, now, until, 0.0 if last else _STRIKE * forward)
         self._last, self._period = number, period
+
+    def _in_reach(self, standing: WalkingFoot, now: GlobalTime, period: float, *, flies: bool) -> float:
+        """Return the time of a step, shorter if the foot that stands meanwhile would be left behind too far, s."""
+        furthest = _FURTHEST_RUNNING if flies else _FURTHEST
+        for part in _PARTS:
+            place = self.progression.ahead(now, GlobalTime(now + part * period)).place
+            x, _, z = subtract(standing.shape.place, place.to_own(standing.goal.position))
+            if math.hypot(x, z) <= furthest:
+                break
+        return part * period
 
     @staticmethod
     def _worth(foot: WalkingFoot, target: Place) -> bool:
