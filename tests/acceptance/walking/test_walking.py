@@ -338,3 +338,23 @@ async def test_a_figure_in_a_hurry_that_turns_does_not_sink_to_its_knees(either:
     assert min(heights) > heights[0] - 0.15
     assert np.abs(np.diff(heights, 2)).max() / 0.02**2 < 32.0
     assert worst_motion(either.bodies("alice"))["wrist_m_s2"] < 60.0
+
+
+async def test_a_figure_that_is_there_before_its_time_comes_to_rest_smoothly(pilot: RealizerPilot) -> None:
+    await pilot.advance(0.34)
+    pilot.block("a", go("-2.07 1.52", manner="RUN", speed=3.37))
+    await pilot.advance(1.39)
+    pilot.block("b", go("-3.14 1.55", manner="RUN", speed=3.47), composition="REPLACE")
+    await pilot.advance(5)
+    turns = np.diff(np.unwrap([heading(body) for body in pilot.bodies("alice")], period=360.0), n=2)
+    assert abs(turns).max() < 1.0
+
+
+async def test_a_figure_that_is_late_comes_to_rest_smoothly(pilot: RealizerPilot) -> None:
+    pilot.block("a", go("2.79 -3.19", manner="RUN", speed=3.0))
+    await pilot.advance(1.86)
+    pilot.block("b", go("-0.79 -0.36", manner="STRAFE", speed=0.7), composition="REPLACE")
+    await pilot.advance(7)
+    assert pilot.feedback.warnings == [("b:w", "EXECUTION_FAILURE")]
+    ways = np.diff(pelvis(pilot.bodies("alice"))[:, [0, 2]], n=2, axis=0) / 0.02**2
+    assert np.linalg.norm(ways, axis=1).max() < 12.0
