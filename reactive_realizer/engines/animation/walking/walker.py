@@ -45,6 +45,9 @@ _WORTH = 0.1
 _FURTHEST, _FURTHEST_RUNNING = 0.55, 0.45
 """Distance to which a standing foot is left behind in a step of the other one, m."""
 
+_MOST_TURNED = 1.0
+"""How far a figure turns away from a standing foot meanwhile, rad."""
+
 _PARTS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)
 """Parts of a step that are tried for that: a figure that speeds up or turns takes shorter steps."""
 
@@ -264,7 +267,8 @@ class Walker:
         for part in _PARTS:
             place = self.progression.ahead(now, GlobalTime(now + part * period)).place
             x, _, z = subtract(standing.shape.place, place.to_own(standing.goal.position))
-            if math.hypot(x, z) <= furthest:
+            turned = abs(between_headings(standing.goal.heading, place.heading))
+            if math.hypot(x, z) <= furthest and (flies or turned <= _MOST_TURNED):
                 break
         return part * period
 
