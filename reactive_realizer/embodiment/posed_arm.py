@@ -30,7 +30,10 @@ _TIP = 0.7
 """Center of a fingertip beyond its last joint, in lengths of the bone before it."""
 
 _FINGERTIPS = (("index1", 0.9), ("ring1", 1.4))
-"""Fingers beside the middle one whose tips are kept clear: how far they are aside, in distances of knuckles."""
+"""Fingers whose tips go with the middle one and are kept clear: how far they are aside, in distances of knuckles."""
+
+_OWN_TIPS = ("thumb3", "pinky3")
+"""Last joints of the fingers at the edges of a hand, which bend unlike the middle one: their tips are kept clear."""
 
 _NEAR_ELBOW, _NEAR_WRIST = range(2), range(2, len(FOREARM))
 
@@ -44,8 +47,11 @@ _STRAIGHT = 0.995
 _BENT = 0.002
 """Square of the sine of its bend at which an elbow bends half as much as it should."""
 
-_BENDING, _BENDS = ("middle1", "middle2", "middle3"), (0.0, 0.3, 0.6, 0.9, 1.2, 1.5)
-"""Joints of a finger, and how far each of them bends from a flat hand to a fist, rad."""
+_MIDDLE, _LITTLE = (tuple(f"{finger}{number}" for number in (1, 2, 3)) for finger in ("middle", "pinky"))
+"""Joints of the fingers that bend like a fist."""
+
+_BENDS = (0.0, 0.3, 0.6, 0.9, 1.2, 1.5)
+"""How far each of these joints bends from a flat hand to a fist, rad."""
 
 _SPREAD = 0.01
 """How much further from the middle of a hand its points may be, m: fingers spread, too."""
@@ -165,11 +171,9 @@ class _Hand:
         self._wrist = f"{side}_wrist"
 
     def points(self) -> Iterator[tuple[str, tuple[Vec3, ...]]]:
-        """Yield joints with points in their axes that are kept clear, m, the palm first. The thumb goes with it."""
+        """Yield joints with points in their axes that are kept clear, m, the palm first."""
         yield self._wrist, tuple(self._from(self._wrist, knuckle) for knuckle in _KNUCKLES if self._has(knuckle))
-        if self._has("thumb3"):
-            yield self._wrist, (add(self._from(self._wrist, "thumb3"), self._tip("thumb3")),)
-        if all(map(self._has, ("middle1", "middle2", "middle3"))):
+        if all(map(self._has, _MIDDLE)):
             yield f"{self._side}_middle2", (ZERO,)
             aside = [
                 scale(self._from(f"{self._side}_middle1", knuckle), far)
@@ -177,6 +181,9 @@ class _Hand:
                 if self._has(knuckle)
             ]
             yield f"{self._side}_middle3", tuple(add(self._tip("middle3"), each) for each in aside or (ZERO,))
+        for joint in _OWN_TIPS:
+            if self._has(joint):
+                yield f"{self._side}_{joint}", (self._tip(joint),)
 
     def ball(self) -> tuple[Vec3, float]:
         """Return the middle of the hand, in the axes of the wrist, m, and how far from there its points may be, m."""
@@ -189,7 +196,7 @@ class _Hand:
     def _bent(self, bend: float) -> Iterator[Vec3]:
         """Yield the points of the hand, relative to the wrist, m, where each joint of the fingers bends so far, rad."""
         turn = from_axis_angle(FORWARD, -bend if self._side == "l" else bend)
-        body = Body(self._skeleton, dict.fromkeys((f"{self._side}_{joint}" for joint in _BENDING), turn))
+        body = Body(self._skeleton, dict.fromkeys((f"{self._side}_{joint}" for joint in (*_MIDDLE, *_LITTLE)), turn))
         start = body.transform(self._wrist).position
         for joint, points in self.points():
             place = body.transform(joint)

@@ -15,14 +15,15 @@ from reactive_realizer.embodiment.clearance import MARGIN, Clearance
 from reactive_realizer.embodiment.flesh import Flesh, flesh_of
 from reactive_realizer.embodiment.girth import girth_of
 from reactive_realizer.embodiment.glb import read_binary, write_binary
-from reactive_realizer.embodiment.quaternion import from_axis_angle, multiply
+from reactive_realizer.embodiment.quaternion import from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.skin import read_skin
-from reactive_realizer.embodiment.vector import distance
+from reactive_realizer.embodiment.vector import add, distance, scale
 
 PACKAGE = Path(str(files("reactive_realizer"))) / "assets" / "avatars"
 AVATARS = {name: Avatar.read(PACKAGE / f"{name}.glb") for name in ("female", "male")}
 SIDEWAYS, INWARD = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 ASIDE = 0.35
+FINGERS = ("thumb", "index", "middle", "ring", "pinky")
 YIELDING = 0.01
 """m that a hand may stay in flesh."""
 
@@ -56,6 +57,19 @@ def depths(part: Flesh, avatar: Avatar, points: NDArray[np.float64]) -> NDArray[
     part.pose(body)
     found = part.contacts([(x, y, z) for x, y, z in points.tolist()], [0.0] * len(points), 0.1)
     return np.array([each.depth for each in found.values()])
+
+
+def tip_depth(avatar: Avatar, body: Body, finger: str) -> float:
+    """How deep the tip of a finger of the right hand is in the figure, m; at least -0.1."""
+    girth, joint = girth_of(avatar), f"r_{finger}3"
+    place, turn = body.transform(joint)
+    tip = add(place, rotate(turn, scale(avatar.skeleton.offset(joint), 0.7)))
+    found = [-0.1]
+    for part in flesh_of(avatar.skeleton, girth):
+        part.find(body)
+        part.pose(body)
+        found += [each.depth for each in part.contacts([tip], [girth.finger], 0.1).values()]
+    return max(found)
 
 
 @pytest.mark.parametrize(
@@ -113,6 +127,20 @@ def test_a_hand_in_the_belly_goes_out_in_front(avatar: Avatar) -> None:
     assert clearance.deepest(outside) < YIELDING
     assert wrist(outside)[2] > wrist(inside)[2]
     assert outside.pose.keys() == inside.pose.keys() | {"r_shoulder", "r_elbow"}
+
+
+@pytest.mark.parametrize(
+    ("finger", "turn", "hand", "inward"), [("thumb", 0.8, 0.0, 1.3), ("pinky", 0.0, 1.5, 1.0)], ids=["thumb", "little"]
+)
+def test_a_finger_at_the_edge_of_a_hand_keeps_clear_wherever_it_points(
+    avatar: Avatar, finger: str, turn: float, hand: float, inward: float
+) -> None:
+    """The other fingers are bent to a fist."""
+    fist = {f"r_{each}{number}": from_axis_angle(INWARD, 1.2) for each in FINGERS for number in (1, 2, 3)}
+    finger_alone = {f"r_{finger}{number}": from_axis_angle(INWARD, turn) for number in (1, 2, 3)}
+    inside = bent(avatar, inward, 0.3).posed({**fist, **finger_alone, "r_wrist": from_axis_angle(INWARD, hand)})
+    assert tip_depth(avatar, inside, finger) > 0.05
+    assert tip_depth(avatar, Clearance.of(avatar)(inside), finger) < YIELDING
 
 
 def test_an_arm_that_is_free_stays_as_it_is(avatar: Avatar) -> None:

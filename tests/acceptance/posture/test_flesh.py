@@ -4,10 +4,12 @@ from typing import Any
 
 import pytest
 
+from reactive_realizer.clock.ticker import FRAME_EVERY, RATE
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.clearance import MARGIN, Clearance
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.quaternion import rotation_vector
+from reactive_realizer.embodiment.quaternion import conjugate, rotate, rotation_vector
+from reactive_realizer.embodiment.vector import subtract
 from reactive_realizer.testing.motion_laws import accelerations, hand_depth
 from reactive_realizer.testing.pilot import RealizerPilot
 
@@ -130,6 +132,28 @@ async def test_no_gesture_passes_through_the_body(alternating: RealizerPilot, st
     assert alternating.feedback.reached("b:g:stroke")
     assert alternating.feedback.warnings == []
     assert depth(alternating, alternating.bodies()[150:]) < IN_FLESH
+
+
+@pytest.mark.parametrize("stance", ["STANDING", "SITTING"])
+async def test_a_palm_on_the_heart_lies_just_left_of_the_middle_of_the_chest(
+    either: RealizerPilot, stance: str
+) -> None:
+    """No further aside than 0.4 of the way to the left shoulder."""
+    either.block("a", f'<postureShift id="s"><stance type="{stance}"/></postureShift>')
+    await either.advance(3)
+    either.block("b", '<gesture id="g" lexeme="HEART"/>')
+    await either.advance(4)
+    assert either.feedback.reached("b:g:stroke")
+    since = either.feedback.time("b:g:stroke")
+    shown = either.bodies()[round(since * RATE / FRAME_EVERY)]
+    wrist, knuckle, shoulder = (left_of_the_chest(shown, joint) for joint in ("r_wrist", "r_middle1", "l_shoulder"))
+    assert 0.0 < 0.5 * (wrist + knuckle) < 0.4 * shoulder
+
+
+def left_of_the_chest(body: Body, joint: str) -> float:
+    """How far a joint is to the left of the middle of the chest, m."""
+    middle, turn = body.transform("vt6")
+    return rotate(conjugate(turn), subtract(body.transform(joint).position, middle))[0]
 
 
 def depth(pilot: RealizerPilot, bodies: list[Body]) -> float:
