@@ -145,7 +145,7 @@ def _character(
     streams: SpeechStreams,
 ) -> Character:
     heading = math.radians(spec.heading)
-    file = assets(spec.avatar)
+    file = _avatar_file(assets, spec.avatar, f"character.{id_}.avatar", options.human)
     avatar, stand_ins = Avatar.read(file), StandIns.read(assets(STAND_INS))
     for note in avatar.notes:
         _log.warning("%s: %s", file.name, note)
@@ -233,3 +233,11 @@ def _parameters(cls: type[Anticipator]) -> Mapping[str, object]:
     parameters = signature(cls).parameters.values()
     given = [own for own in parameters if own.kind is Parameter.POSITIONAL_OR_KEYWORD]
     return {own.name: own.default for own in given if own.name != "context"}
+
+
+def _avatar_file(assets: Assets, name: str, key: str, human: Path) -> Path:
+    """Return the file of an avatar that a key of a human file names."""
+    try:
+        return assets(name)
+    except RealizerError as problem:
+        raise RealizerError(BadHumanFile(file=human.name, key=key, reason=problem.fault.sentence)) from problem

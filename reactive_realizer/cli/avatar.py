@@ -10,7 +10,9 @@ from reactive_realizer.binding.viseme_binding import standard_binding
 from reactive_realizer.embodiment.avatar import SKIN_COLORS, Avatar
 from reactive_realizer.embodiment.face_map import STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.face_names import ARKIT, OCULUS, VRM
+from reactive_realizer.embodiment.glb import BadAvatar
 from reactive_realizer.embodiment.mixamo import JOINTS
+from reactive_realizer.errors import RealizerError
 
 _VOCABULARIES = (("ARKit", ARKIT), ("Oculus", OCULUS), ("VRM", VRM))
 
@@ -26,6 +28,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """The exit status. If the file cannot be used, an error is raised."""
+    if not options.file.exists():
+        raise RealizerError(BadAvatar(file=options.file.name, reason=f"there is no file {options.file}"))
     avatar = Avatar.read(options.file)
     face = FaceMap(avatar, StandIns.read(PACKAGE_ASSETS / STAND_INS))
     print("\n".join((*_body(avatar), *_face(avatar, face), *(f"note: {note}" for note in avatar.notes))))

@@ -16,6 +16,7 @@ from reactive_realizer.embodiment.mixamo import alignment
 from reactive_realizer.embodiment.morph_targets import MorphTargets, morph_targets_of
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, angle, between, conjugate, multiply, rotate
 from reactive_realizer.embodiment.rig import Bone, bones_of
+from reactive_realizer.embodiment.skin_faults import skin_faults
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, unit
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.file_cache import remembered
@@ -73,7 +74,9 @@ class Avatar:
         except (LookupError, TypeError, AttributeError) as problem:
             raise RealizerError(BadAvatar(file=path.name, reason=f"unusable skin or mesh ({problem!r})")) from problem
         avatar = Avatar.of_bones(bones, (*targets.named, *SKIN_COLORS), path.name)
-        return replace(avatar, path=path, targets=targets, notes=(*targets.notes, *_unshown(scene)))
+        return replace(
+            avatar, path=path, targets=targets, notes=(*targets.notes, *skin_faults(scene), *_unshown(scene))
+        )
 
     @classmethod
     def of_bones(cls, bones: Sequence[Bone], morphs: Sequence[str], file: str) -> "Avatar":

@@ -16,6 +16,9 @@ from reactive_realizer.embodiment.vector import UP, ZERO, Vec3, subtract
 _MOST_BONES = 1_000
 _UNEVEN = 0.01
 _LOWEST_HEAD, _HIGHEST_HEAD = 0.2, 4.0
+_FARTHEST = 1_000.0
+"""Distance of a bone from the origin at rest up to which it is used, m."""
+
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _TO_LEFT = (("l_shoulder", "r_shoulder"), ("l_hip", "r_hip"))
 
@@ -157,6 +160,8 @@ class _Rig:
             place = _local(self._nodes[each]) @ place
         if not np.isfinite(place).all():
             raise ValueError(f"the bone {self._name(node)} is nowhere at rest: its transform is not finite")
+        if (far := float(np.abs(place[:3, 3]).max())) > _FARTHEST:
+            raise ValueError(f"the bone {self._name(node)} is {far:.3g} m away from the origin, over {_FARTHEST:g} m")
         return place
 
     def _position(self, node: int) -> Vec3:

@@ -280,3 +280,12 @@ def test_an_unknown_or_invalid_name_is_refused(folders: tuple[Path, Path], name:
 def test_the_error_of_a_missing_folder_names_it(tmp_path: Path) -> None:
     with pytest.raises(RealizerError, match="nowhere"):
         Assets((tmp_path / "nowhere",))
+
+
+async def test_an_avatar_that_does_not_exist_is_named_with_its_key_and_file(tmp_path: Path) -> None:
+    human = tmp_path / "human.toml"
+    human.write_text('[character.anna]\navatar = "avatars/anna.glb"')
+    said = r"human\.toml: character\.anna\.avatar: there is no asset named 'avatars/anna\.glb'"
+    with pytest.raises(RealizerError, match=said):
+        async with open_scene(SceneOptions(human, voice="text")):
+            pass

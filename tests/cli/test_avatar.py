@@ -42,6 +42,12 @@ def test_a_file_that_is_no_avatar_is_refused_and_nothing_written(
     assert not human.exists()
 
 
+def test_a_file_that_does_not_exist_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    missing = tmp_path / "anna.glb"
+    assert main(["avatar", str(missing)]) == 2
+    assert capsys.readouterr().err == f"anna.glb cannot be used as an avatar: there is no file {missing}\n"
+
+
 @pytest.mark.timeout(20)
 def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pipe = tmp_path / "pipe.glb"
@@ -64,7 +70,7 @@ def test_it_says_what_a_face_has_and_what_stands_in_for_the_rest(
     assert "VRM: 1 of 18; missing: happy, angry, sad, relaxed, surprised, neutral, aa, ih" in "\n".join(printed)
     assert "ARKit: 0 of 52" in printed
     assert "stand-in: eyeBlinkLeft = +0.5 blink" in printed
-    (note,) = (line for line in printed if line.startswith("note: "))
+    (note,) = (line for line in printed if line.startswith("note: the expression"))
     assert note.startswith(
         "note: the expression 'aa' moves the morph target 7 of the mesh 'Face', which does not exist"
     )

@@ -2,10 +2,13 @@
 
 import json
 import math
+import re
 import struct
+from collections.abc import Callable
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +17,8 @@ from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.face_names import ARKIT, BEYOND_ARKIT, OCULUS
 from reactive_realizer.embodiment.frame import rotation_array
+from reactive_realizer.embodiment.glb import read_binary, write_binary
+from reactive_realizer.embodiment.humanoid import Humanoid
 from reactive_realizer.embodiment.mixamo import JOINTS
 from reactive_realizer.embodiment.quaternion import IDENTITY, Quat, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.rig import Bone
@@ -201,3 +206,52 @@ def test_what_the_page_cannot_show_is_noted(tmp_path: Path) -> None:
     assert Avatar.read(path).notes == (
         "the page cannot show it, because it is compressed with KHR_draco_mesh_compression; export it without",
     )
+
+
+def changed_female(path: Path, change: Callable[[dict[str, Any]], object]) -> Path:
+    """A copy of the package's avatar whose description is changed."""
+    scene, data = read_binary(AVATARS / "female.glb")
+    change(scene)
+    write_binary(path, scene, data)
+    return path
+
+
+def counted(count: int) -> Callable[[dict[str, Any]], object]:
+    """A change of the number of vertices of the first mesh."""
+    return lambda scene: scene["accessors"][scene["meshes"][0]["primitives"][0]["attributes"]["POSITION"]].update(
+        count=count
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (counted(999_999), r"the accessor 0, POSITION of the mesh Face, has 999999 elements; .* room for 3854"),
+        (counted(12), r"the vertices of the mesh Face .* 12 POSITION \(accessor 0\), 3854 JOINTS_0 \(accessor 3\)"),
+        (lambda scene: scene["skins"][0].pop("inverseBindMatrices"), r"the skin 0 has no inverse bind matrices"),
+        (lambda scene: scene["skins"][0]["joints"].append(0), r"the skin 0 has 55 bones, but 54 inverse bind matrices"),
+        (lambda scene: scene["meshes"][0]["primitives"][0]["attributes"].pop("WEIGHTS_0"), r"without WEIGHTS_0"),
+        (lambda scene: scene["accessors"].clear(), r"the skin of the node Face cannot be read"),
+    ],
+    ids=["too many vertices", "too few vertices", "no matrices", "too few matrices", "no weights", "no accessors"],
+)
+def test_a_skin_that_cannot_be_shown_as_meant_is_noted_and_the_figure_plays(
+    tmp_path: Path, change: Callable[[dict[str, Any]], object], said: str
+) -> None:
+    avatar = Avatar.read(changed_female(tmp_path / "odd.glb", change))
+    assert re.search(said, " | ".join(avatar.notes))
+    assert Humanoid(avatar).shown.transform("l_wrist").position == pytest.approx(
+        Humanoid(Avatar.read(AVATARS / "female.glb")).shown.transform("l_wrist").position
+    )
+
+
+def test_the_skins_of_the_package_have_no_faults() -> None:
+    assert Avatar.read(AVATARS / "female.glb").notes == Avatar.read(AVATARS / "male.glb").notes == ()
+
+
+def test_a_bone_that_is_far_away_is_refused_by_name(tmp_path: Path) -> None:
+    def away(scene: dict[str, Any]) -> None:
+        next(node for node in scene["nodes"] if node["name"] == "LeftHand")["translation"] = [1e30, 0, 0]
+
+    with pytest.raises(RealizerError, match=r"far\.glb .*: the bone LeftHand is 1e\+30 m away from the origin"):
+        Avatar.read(changed_female(tmp_path / "far.glb", away))
