@@ -18,6 +18,7 @@ from reactive_realizer.errors import RealizerError
 from .rigs import OWN, Rig, bone_places, write
 
 MIXAMO = {joint: f"mixamorig:{bone}" for bone, joint in JOINTS.items()}
+NUMBERED = {joint: f"mixamorig7:{bone}" for bone, joint in JOINTS.items()}
 UNITY = {joint: bone for bone, joint in VRM_0_JOINTS.items()}
 
 
@@ -28,6 +29,7 @@ def without_fingers_and_toes(joint: str) -> str | None:
 RIGS = {
     "the own axes": Rig(),
     "Mixamo in centimeters": Rig(MIXAMO.__getitem__, rotated=True, units=0.01),
+    "Mixamo with a number in the prefix": Rig(NUMBERED.__getitem__, units=0.01),
     "Unity names": Rig(UNITY.__getitem__, rotated=True),
     "small": Rig(size=0.8, rotated=True),
     "tall": Rig(size=1.3, lowered=0.2),
