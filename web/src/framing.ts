@@ -13,10 +13,11 @@ export function shotOf(address: string): Shot | null {
   return asked === null ? null : (SHOTS.find((shot) => shot === asked) ?? "upper");
 }
 
-/** A character as the camera sees it: places in the world, m. */
+/** A character as the camera sees it: places in the world, m; no feet if its avatar has none of known names. */
 export interface Figure {
   crown: Position;
   root: Position;
+  feet: Position[];
 }
 
 /** The point that the camera looks at, and its position, m. */
@@ -26,9 +27,9 @@ export interface View {
 }
 
 /** A figure that is shown while no character is known. */
-const USUAL: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0] };
+const USUAL: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0], feet: [] };
 
-/** Space above the head and below what is shown, m: hands are raised above the head, and feet are set forward. */
+/** Space above the head and below what is shown, m: hands are raised above the head, and shoes go beyond the joints. */
 const ABOVE: Record<Shot, number> = { face: 0.05, bust: 0.1, upper: 0.13, full: 0.2 };
 const BELOW: Record<Shot, number> = { face: 0.05, bust: 0.05, upper: 0.05, full: 0.25 };
 
@@ -66,7 +67,7 @@ export function isNear(shot: Shot): boolean {
 }
 
 /** Points of a figure that a shot shows. */
-function outline(shot: Shot, { crown, root }: Figure): Vector3[] {
+function outline(shot: Shot, { crown, root, feet }: Figure): Vector3[] {
   const [x, y, z] = crown;
   switch (shot) {
     case "face":
@@ -76,6 +77,11 @@ function outline(shot: Shot, { crown, root }: Figure): Vector3[] {
     case "upper":
       return [new Vector3(...root), new Vector3(x, y, root[2])];
     case "full":
-      return [new Vector3(root[0], 0, root[2]), new Vector3(...root), new Vector3(x, y, root[2])];
+      return [
+        new Vector3(root[0], 0, root[2]),
+        new Vector3(...root),
+        new Vector3(x, y, root[2]),
+        ...feet.map((foot) => new Vector3(...foot)),
+      ];
   }
 }

@@ -25,7 +25,7 @@ export interface Seat {
 }
 
 /** Slopes of a thigh, in degrees from the horizontal, at which a seat begins to appear and is complete. */
-const SLOPES: [number, number] = [50, 25];
+const SLOPES: [number, number] = [38, 16];
 
 /** Slopes of a shin from the vertical, likewise: one that leans forward more is that of somebody who crouches. */
 const LEANS: [number, number] = [28, 21];
@@ -33,6 +33,9 @@ const LEANS: [number, number] = [28, 21];
 /** Depth of the seat below the hip joints, and distance of its middle before them, m. */
 const FLESH = 0.088;
 const FORWARD = 0.03;
+
+/** Highest height of hip joints that sit, above the knees, m: the seat does not rise with a figure that stands up. */
+const HIGHEST = 0.03;
 
 const RADIUS = 0.185;
 const THICKNESS = 0.05;
@@ -47,7 +50,8 @@ export function seatOf(legs: Leg[]): Seat | null {
   const knee = mean(legs.map((leg) => leg.knee));
   const [x, z] = [knee[0] - hip[0], knee[2] - hip[2]];
   const share = FORWARD / (Math.hypot(x, z) || 1);
-  return { place: [hip[0] + share * x, hip[1] - FLESH, hip[2] + share * z], shown };
+  const height = Math.min(hip[1], knee[1] + HIGHEST) - FLESH;
+  return { place: [hip[0] + share * x, height, hip[2] + share * z], shown };
 }
 
 /** How much a leg is that of a sitting figure, 0 to 1. */

@@ -4,8 +4,8 @@ import { PerspectiveCamera, Vector3 } from "three";
 import { type Figure, framing, type Shot, shotOf } from "../src/framing";
 import type { Position } from "../src/protocol";
 
-const STANDING: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0] };
-const SITTING: Figure = { crown: [0, 1.25, 0.1], root: [0, 0.45, -0.1] };
+const STANDING: Figure = { crown: [0, 1.7, 0], root: [0, 0.9, 0], feet: [[0.1, 0.02, 0.1]] };
+const SITTING: Figure = { crown: [0, 1.25, 0.1], root: [0, 0.45, -0.1], feet: [[0.1, 0.02, 0.5]] };
 
 /** Where a point is in the picture of a shot: 1 is its upper and its right edge. */
 function seen(point: Position, shot: Shot, figures: Figure[], aspect = 16 / 9): { x: number; y: number } {
@@ -44,8 +44,19 @@ describe("the framing", () => {
     expect(seen([0, 0, 0], "full", [STANDING]).y).toBeGreaterThan(-1);
   });
 
+  it("shows the tips of the shoes of a character that sits, and the whole of one that lies across the picture", () => {
+    for (const aspect of [4 / 3, 0.6]) {
+      const { y } = seen([0.1, 0, 0.62], "full", [SITTING], aspect);
+      expect(y).toBeGreaterThan(-1);
+      const lying: Figure = { crown: [-0.85, 0.1, 0], root: [0, 0.1, 0], feet: [[0.8, 0.1, 0]] };
+      for (const place of [lying.crown, ...lying.feet]) {
+        expect(Math.abs(seen(place, "full", [lying], aspect).x)).toBeLessThan(1);
+      }
+    }
+  });
+
   it.each(["face", "bust", "upper", "full"] as const)("shows all characters, in narrow windows too: %s", (shot) => {
-    const beside: Figure = { crown: [1.2, 1.8, 0], root: [1.2, 0.95, 0] };
+    const beside: Figure = { crown: [1.2, 1.8, 0], root: [1.2, 0.95, 0], feet: [] };
     for (const aspect of [2, 0.6]) {
       const places = [STANDING, beside].map(({ crown }) => seen(crown, shot, [STANDING, beside], aspect));
       for (const { x, y } of places) expect(Math.max(Math.abs(x), Math.abs(y))).toBeLessThan(1);

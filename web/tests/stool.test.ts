@@ -29,9 +29,16 @@ describe("the stool", () => {
   });
 
   it("fades in while somebody sits down", () => {
-    const half: Leg = { hip: [0.1, 0.75, -0.1], knee: [0.1, 0.48, 0.22], ankle: [0.1, 0.08, 0.15] };
+    const half: Leg = { hip: [0.1, 0.64, -0.1], knee: [0.1, 0.48, 0.22], ankle: [0.1, 0.08, 0.15] };
     expect(seatOf([half])?.shown).toBeGreaterThan(0);
     expect(seatOf([half])?.shown).toBeLessThan(1);
+  });
+
+  it("is absent while somebody has hardly begun to sit down, and is no higher than for one who sits", () => {
+    const begun: Leg = { hip: [0.1, 0.75, -0.1], knee: [0.1, 0.48, 0.22], ankle: [0.1, 0.08, 0.15] };
+    expect(seatOf([begun])).toBeNull();
+    const nearly: Leg = { hip: [0.1, 0.6, -0.1], knee: [0.1, 0.5, 0.22], ankle: [0.1, 0.09, 0.2] };
+    expect(seatOf([nearly])?.place[1]).toBeCloseTo(0.442);
   });
 
   it("is taken out of the scene with its figure", () => {
