@@ -28,7 +28,12 @@ import type { Quality } from "./viewport";
 const HEAD = /(^|[^a-z])head$/i;
 
 /** Names of the bones of the legs, with or without a prefix: `LeftUpLeg`, `mixamorig:LeftUpLeg`. */
-const LEGS = ["Left", "Right"].map((side) => ({ hip: `${side}UpLeg`, knee: `${side}Leg`, ankle: `${side}Foot` }));
+const LEGS = ["Left", "Right"].map((side) => ({
+  hip: `${side}UpLeg`,
+  knee: `${side}Leg`,
+  ankle: `${side}Foot`,
+  toes: `${side}ToeBase`,
+}));
 
 /** Names of the materials inside a mouth and between lids, where the shadow map is too coarse; their colors have shade. */
 const INSIDE = /mouth|teeth|tongue|eyes?$/i;
@@ -104,11 +109,11 @@ export class Avatar {
     this.springs?.update(time);
   }
 
-  /** Its crown, its root and its joints in the world, m. */
+  /** Its crown, its root and its feet in the world, m. */
   get figure(): Figure {
     const [x, y, z] = worldPosition(this.head ?? this.object);
-    const joints = this.bones.flatMap((bone) => (bone === undefined ? [] : [worldPosition(bone)]));
-    return { crown: [x, y + this.crown, z], root: worldPosition(this.root ?? this.object), joints };
+    const feet = LEGS.map(({ ankle, toes }) => this.ending(toes) ?? this.ending(ankle)).filter((foot) => foot !== null);
+    return { crown: [x, y + this.crown, z], root: worldPosition(this.root ?? this.object), feet };
   }
 
   /** Where the root faces in the world, horizontally, of length 1. */

@@ -16,7 +16,7 @@ import type { EffectComposer } from "three/addons/postprocessing/EffectComposer.
 
 import { ContactShadow } from "./contact_shadow";
 import { Follow } from "./follow";
-import { type Figure, framing, isNear, type Shot, showsAll } from "./framing";
+import { type Figure, framing, isNear, type Shot } from "./framing";
 import { lightSimply, lightWell } from "./lighting";
 import { withOcclusion } from "./occlusion";
 import type { Position } from "./protocol";
@@ -95,9 +95,7 @@ export class Viewport {
   /** Keeps all characters in view, at a page time (ms), unless the user has moved the camera. */
   frame(page: number, figures: Figure[]): void {
     const roots = figures.map(({ root }) => root);
-    if (this.shot === null) return;
-    const moved = this.follow.update(page, roots, isNear(this.shot));
-    if (!moved && !this.cuts(figures)) return;
+    if (this.shot === null || !this.follow.update(page, roots, isNear(this.shot))) return;
     this.figures = figures;
     this.look();
   }
@@ -166,12 +164,6 @@ export class Viewport {
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
     this.look();
-  }
-
-  /** Whether the full shot, as it is, cuts a figure. */
-  private cuts(figures: Figure[]): boolean {
-    const view = { target: this.controls.target, eye: this.camera.position };
-    return this.shot === "full" && !showsAll(view, figures, this.camera.aspect, this.camera.fov);
   }
 
   private look(): void {
