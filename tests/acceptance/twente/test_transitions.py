@@ -44,7 +44,7 @@ async def test_a_hermite_transition_has_the_velocities_of_the_motions_around_it(
     speeds = np.diff(list(turns.values())) / np.diff(times)
     changes = np.abs(np.diff(speeds))[(times[1:-1] > 1.3) & (times[1:-1] < 3.3)]
     # rad/s from frame to frame; the speeds at the ends are near 2 and 1.6 rad/s. The hand slides along the thigh, too.
-    assert changes.max() < 0.7
+    assert changes.max() < 1.0
 
 
 async def test_a_transition_does_not_delay_the_next_motion(pilot: RealizerPilot) -> None:
@@ -61,7 +61,7 @@ async def test_a_transition_does_not_delay_the_next_motion(pilot: RealizerPilot)
     assert not pilot.feedback.warnings
     turns = angles(pilot, "r_shoulder")
     # The hand begins in the thigh, out of which it is kept.
-    assert [turns[3.0 + time] for time in (0.0, 0.1, 0.2, 0.5)] == pytest.approx([0.0, -0.08, -0.16, -0.4], abs=0.07)
+    assert [turns[3.0 + time] for time in (0.0, 0.1, 0.2, 0.5)] == pytest.approx([0.0, -0.08, -0.16, -0.4], abs=0.09)
 
 
 async def test_a_slerp_transition_starts_and_ends_at_rest(pilot: RealizerPilot) -> None:
