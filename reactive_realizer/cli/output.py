@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import IO, TextIO
 
 from reactive_realizer.bml.block import Problem
+from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.feedback.feedback_manager import Report
 from reactive_realizer.feedback.messages import WarningFeedback
+from reactive_realizer.realizer.inputs import BmlText
 from reactive_realizer.realizer.realizer import Realizer
 from reactive_realizer.scheduler.bml_block import BMLBlock
 
@@ -40,10 +42,39 @@ class FeedbackWriter:
                 self.problem = OSError(f"the feedback cannot be written: {problem.strerror}")
 
 
-def print_warning(report: Report) -> None:
-    """Print a report to stderr if it is a warning."""
-    if isinstance(report.message, WarningFeedback):
-        print(f"{report.message.id}: {report.message.text}", file=sys.stderr)
+class WarningPrinter:
+    """Prints warnings to stderr, those of blocks without an id of their own with the files that contain them."""
+
+    def __init__(self) -> None:
+        self._files: dict[str, Path] = {}
+        self._unread: list[tuple[Path, str]] = []
+
+    def expect(self, path: Path, document: BmlText) -> None:
+        """Expect warnings of a file, from what was read of it."""
+        for parsed in document.parsed or ():
+            if parsed.written is not None and parsed.written.id.startswith(document.name):
+                self._files[parsed.written.id] = path
+            self._unread += [(path, str(problem.fault)) for problem in parsed.problems if problem.id == BLOCK]
+
+    def __call__(self, report: Report) -> None:
+        """Print a report if it is a warning."""
+        if isinstance(warning := report.message, WarningFeedback):
+            print(f"{self._name(warning)}: {warning.text}", file=sys.stderr)
+
+    def _name(self, warning: WarningFeedback) -> str:
+        """What a warning is about."""
+        if warning.id == BLOCK:
+            return self._take_unread(warning.text)
+        path = self._files.get(warning.id.partition(":")[0])
+        return warning.id if path is None else f"{path}: {warning.id}"
+
+    def _take_unread(self, text: str) -> str:
+        """The file of a block that could not be read; of several with the same warning, the first."""
+        found = next((each for each in self._unread if each[1] == text), None)
+        if found is None:  # in a replay, whose files are not known
+            return BLOCK
+        self._unread.remove(found)
+        return str(found[0])
 
 
 class Explainer:

@@ -15,7 +15,7 @@ from typing import IO
 from reactive_realizer import __version__
 from reactive_realizer.assembly.scene import Scene, open_scene
 from reactive_realizer.bml.sync_ref import NUMBER
-from reactive_realizer.cli.output import Explainer, FeedbackWriter, complain_of_inputs, print_warning
+from reactive_realizer.cli.output import Explainer, FeedbackWriter, WarningPrinter, complain_of_inputs
 from reactive_realizer.cli.scene_options import add_scene_options, scene_options
 from reactive_realizer.clock.clock import Clock, ManualClock, SystemClock
 from reactive_realizer.clock.units import GlobalTime, is_due
@@ -183,10 +183,11 @@ def _is_given(parser: argparse.ArgumentParser, options: argparse.Namespace, name
 
 
 async def _realize(options: argparse.Namespace) -> int:
+    warnings = WarningPrinter()
     async with open_scene(scene_options(options)) as scene:
-        unread = sum(not _put(scene.realizer, entry) for entry in sorted(options.items, key=lambda e: e.time))
+        unread = sum(not _put(scene.realizer, entry, warnings) for entry in sorted(options.items, key=lambda e: e.time))
         clock = ManualClock() if options.clock == "virtual" else SystemClock()
-        with _written(options, scene.realizer):
+        with _written(options, scene.realizer, warnings):
             async with _filmed(options, scene, clock) as after_tick:
                 await run_until_done(scene.realizer, clock, options.until, after_tick)
         _report_left_out(options.items, scene.realizer.time)
@@ -212,7 +213,7 @@ async def _replay(options: argparse.Namespace) -> int:
         print(f"recorded by version {recording.version}, this is {__version__}", file=sys.stderr)
     with TemporaryDirectory() as folder:
         async with open_scene(recording.options(Path(folder))) as scene:
-            with _written(options, scene.realizer):
+            with _written(options, scene.realizer, WarningPrinter()):
                 async with _filmed(options, scene, ManualClock()) as after_tick:
                     await replay(scene.realizer, recording.ticks, after_tick)
             return _status(scene.realizer)
@@ -223,8 +224,8 @@ def _status(realizer: Realizer) -> int:
 
 
 @contextmanager
-def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
-    """Writes the output of the session to the files of the options."""
+def _written(options: argparse.Namespace, realizer: Realizer, warnings: WarningPrinter) -> Iterator[None]:
+    """Writes the output of the session to the files of the options, or its warnings if no option asks for feedback."""
     explainer = Explainer(realizer) if options.explain else None
     track, log = SoundTrack(), PlayedLog()
     recorder = MotionRecorder({id_: character.humanoid.avatar for id_, character in realizer.characters.items()})
@@ -238,7 +239,7 @@ def _written(options: argparse.Namespace, realizer: Realizer) -> Iterator[None]:
         realizer.hear(log.hear)
     with _feedback(options.feedback) as stream:
         writer = None if stream is None else FeedbackWriter(stream)
-        realizer.feedback.listen(writer or print_warning)
+        realizer.feedback.listen(writer or warnings)
         yield
     writes: list[tuple[Path, Callable[[], None]]] = [
         (path, partial(write, path, recorder.motions())) for write, path in wanted.items()
@@ -280,13 +281,15 @@ async def _filmed(options: argparse.Namespace, scene: Scene, clock: Clock) -> As
         yield after_tick
 
 
-def _put(realizer: Realizer, entry: InputFile) -> bool:
-    """Puts a file into the realizer at its time; returns whether it could be read."""
+def _put(realizer: Realizer, entry: InputFile, warnings: WarningPrinter) -> bool:
+    """Puts a file into the realizer at its time, whose warnings are expected; returns whether it could be read."""
     try:
-        realizer.put(BmlText(entry.path.read_bytes()), entry.time)
+        document = realizer.read(BmlText(entry.path.read_bytes()))
     except OSError as problem:
         print(problem, file=sys.stderr)
         return False
+    warnings.expect(entry.path, document)
+    realizer.put(document, entry.time)
     return True
 
 

@@ -31,6 +31,11 @@ class BmlText:
     media_type: str = ""
     parsed: Sequence[Parsed] | None = field(default=None, compare=False, repr=False)
 
+    @property
+    def name(self) -> str:
+        """The id of its first block without one, with which the ids of the others begin."""
+        return f"document{self.number}"
+
 
 @dataclass(frozen=True, slots=True)
 class Prediction:

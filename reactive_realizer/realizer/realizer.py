@@ -185,8 +185,8 @@ class Realizer:
     def read(self, document: BmlText) -> BmlText:
         """A document with its blocks and procedures, in whatever dialect it is."""
         document = self.numbered(document)
-        name = f"document{document.number}"
-        return replace(document, parsed=self.dialects.read(document.text, self.limits, name, document.media_type))
+        parsed = self.dialects.read(document.text, self.limits, document.name, document.media_type)
+        return replace(document, parsed=parsed)
 
     def put(self, entry: Input, at: GlobalTime = GlobalTime(0.0)) -> None:  # noqa: B008 - a float
         """Add an input, which enters at the first tick at or after ``at``, after all earlier inputs."""

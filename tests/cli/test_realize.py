@@ -187,7 +187,7 @@ def test_a_file_that_cannot_be_written_is_told_in_a_line_and_the_others_are_writ
 @pytest.mark.parametrize(
     ("text", "status", "said"),
     [
-        (f'<bml xmlns="{BML}"/>', 1, "bml: line 1, column 1: the bml block has no id, so it is refused\n"),
+        (f'<bml xmlns="{BML}"/>', 1, "{file}: line 1, column 1: the bml block has no id, so it is refused\n"),
         (block("b", '\n<teleport id="t"/>'), 0, "b:t: line 2, column 1: <teleport> is not a behavior of BML 1.0"),
         (HELLO, 0, ""),
     ],
@@ -195,8 +195,29 @@ def test_a_file_that_cannot_be_written_is_told_in_a_line_and_the_others_are_writ
 def test_without_feedback_the_warnings_go_to_stderr(
     bml: Callable[..., str], capsys: pytest.CaptureFixture[str], text: str, status: int, said: str
 ) -> None:
-    assert main(["realize", bml(text), "--voice", "text"]) == status
-    assert capsys.readouterr().err.startswith(said)
+    file = bml(text)
+    assert main(["realize", file, "--voice", "text"]) == status
+    assert capsys.readouterr().err.startswith(said.format(file=file))
+
+
+def test_warnings_of_blocks_without_an_id_name_their_file(
+    bml: Callable[..., str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    no_id = f'<bml xmlns="{BML}"/>'
+    files = {
+        "named.xml": block("b", '<teleport id="t"/>'),
+        "draft.xml": '<bml><gaze id="look" target="nobody"/></bml>',
+        "two_drafts.xml": '<bml/><bml><gaze id="look" target="nobody"/></bml>',
+        "cut.xml": "<bml>",
+        "no_id.xml": no_id,
+        "late.xml": no_id,
+    }
+    named, draft, two_drafts, cut, no_id, late = (bml(text, name) for name, text in files.items())
+    assert main(["realize", f"{late}@1", named, draft, two_drafts, cut, no_id, "--voice", "text"]) == 1
+    subjects = [line.partition(": line ")[0] for line in capsys.readouterr().err.splitlines()]
+    unread, planned = [cut, no_id, late], ["b:t", f"{draft}: document2:look", f"{two_drafts}: document3_2:look"]
+    assert [subject for subject in subjects if subject in unread] == unread
+    assert sorted(subject for subject in subjects if subject not in unread) == sorted(planned)
 
 
 def test_only_feedback_goes_to_stdout_if_requested(bml: Callable[..., str], capsys: pytest.CaptureFixture[str]) -> None:
