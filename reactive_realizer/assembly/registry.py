@@ -47,7 +47,7 @@ def load(group: str, name: str, kind: Any = Callable) -> Any:
 
 def broken(group: str, name: str, problem: BaseException) -> RealizerError:
     """The error of a plug-in that raised an exception while it was set up."""
-    return _broken(group, _point(group, name), _reason(problem))
+    return _broken(group, _point(group, name), one_line(problem))
 
 
 def load_all() -> None:
@@ -73,7 +73,7 @@ def _imported(group: str, point: EntryPoint) -> Any:
     try:
         return point.load()
     except (Exception, SystemExit) as problem:
-        raise _broken(group, point, _reason(problem)) from problem
+        raise _broken(group, point, one_line(problem)) from problem
 
 
 def _broken(group: str, point: EntryPoint, reason: str) -> RealizerError:
@@ -85,9 +85,11 @@ def _source(point: EntryPoint) -> str:
     return point.value if point.dist is None else f"{point.dist.name} ({point.value})"
 
 
-def _reason(problem: BaseException) -> str:
-    """An exception on one line."""
-    return " ".join(f"{type(problem).__name__}: {problem}".split())
+def one_line(problem: BaseException) -> str:
+    """An exception on one line; of a group, those in it."""
+    if isinstance(problem, BaseExceptionGroup):
+        return "; ".join(map(one_line, problem.exceptions))
+    return " ".join(f"{type(problem).__name__}: {problem}".split()).removesuffix(":")
 
 
 def names(group: str) -> list[str]:

@@ -2,16 +2,29 @@
 
 import argparse
 import asyncio
+import logging
 import shlex
 from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
-from reactive_realizer.assembly.registry import broken, load, names
+from reactive_realizer.assembly.registry import broken, load, names, one_line
 from reactive_realizer.bridges.bridge import Bridge
+from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.server.own_clients import OwnClient
 
+logger = logging.getLogger(__name__)
+
 _GROUP = "bridges"
+
+
+class BridgeFailed(Fault):
+    """An exception of a bridge that does not tell of a lost connection."""
+
+    code = "bridge-failed"
+    template = "the bridge {name} has failed: {reason}"
+    name: str
+    reason: str
 
 
 class _BridgeParser(argparse.ArgumentParser):
@@ -25,7 +38,7 @@ class _BridgeParser(argparse.ArgumentParser):
         self.epilog = f"example: reactive-realizer bridge {name} http://127.0.0.1:8088"
         self.add_argument("url", metavar="URL", help="the address of the realizer, http://127.0.0.1:8088")
         _add_options(name, bridge, self)
-        self.set_defaults(run=partial(_run, bridge))
+        self.set_defaults(run=partial(_run, name, bridge))
         return super().parse_known_args(args, namespace)
 
 
@@ -67,7 +80,18 @@ def _add_options(name: str, bridge: Bridge, parser: argparse.ArgumentParser) -> 
         raise broken(_GROUP, name, problem) from problem
 
 
-def _run(bridge: Bridge, options: argparse.Namespace) -> int:
-    """The exit status: 0 if the other system ends the bridge. If a connection is lost, an error is raised."""
-    asyncio.run(bridge.run(options.url, options))
+def _run(name: str, bridge: Bridge, options: argparse.Namespace) -> int:
+    """The exit status: 0 if the other system ends the bridge.
+
+    Raises:
+        RealizerError: a connection cannot be made or is lost; or "bridge-failed", with a traceback in the verbose log.
+        OSError: a connection cannot be made or is lost.
+    """
+    try:
+        asyncio.run(bridge.run(options.url, options))
+    except (RealizerError, OSError):
+        raise
+    except (Exception, asyncio.CancelledError) as problem:
+        logger.info("the bridge %s has failed", name, exc_info=True)
+        raise RealizerError(BridgeFailed(name=name, reason=one_line(problem))) from problem
     return 0

@@ -11,6 +11,7 @@ from reactive_realizer.cli.bridge import bridge
 
 Install = Callable[..., None]
 ROOM = """
+import asyncio
 from reactive_realizer.bridges.bridge import Bridge
 
 async def run(url, options): ...
@@ -21,6 +22,23 @@ def no_options(parser):
 GOOD = Bridge("Connects a room.", run)
 BAD_OPTIONS = Bridge("Connects no room.", run, no_options)
 NUMBER = 5
+
+async def fails(url, options):
+    raise LookupError("the room\\nis dark")
+
+async def fails_in_a_group(url, options):
+    async with asyncio.TaskGroup() as group:
+        group.create_task(fails(url, options))
+
+async def waits_for_what_is_canceled(url, options):
+    task = asyncio.create_task(asyncio.sleep(9))
+    task.cancel()
+    await task
+
+FAILS = Bridge("Fails.", fails)
+FAILS_IN_A_GROUP = Bridge("Fails.", fails_in_a_group)
+NO_COROUTINE = Bridge("Fails.", lambda url, options: None)
+WAITS = Bridge("Waits.", waits_for_what_is_canceled)
 """
 CANNOT = "'room' in the plug-in group bridges cannot be used: acme (%s): %s"
 
@@ -60,6 +78,33 @@ def test_a_bridge_that_cannot_be_used_is_named_with_its_distribution_and_the_rea
     install("acme", "room", value)
     assert main(command) == 2
     assert capsys.readouterr().err == CANNOT % (value, reason) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("value", "reason"),
+    [
+        ("acme_room:FAILS", "LookupError: the room is dark"),
+        ("acme_room:FAILS_IN_A_GROUP", "LookupError: the room is dark"),
+        ("acme_room:NO_COROUTINE", "ValueError: a coroutine was expected, got None"),
+        ("acme_room:WAITS", "CancelledError"),
+    ],
+)
+def test_a_bridge_that_fails_while_it_runs_says_why_in_a_line(
+    install: Install, capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture, value: str, reason: str
+) -> None:
+    install("acme", "room", value)
+    assert main(["bridge", "room", "http://127.0.0.1:9"]) == 2
+    assert capsys.readouterr().err == f"the bridge room has failed: {reason}\n"
+    assert caplog.records == [], "a traceback is only written with --verbose"
+
+
+def test_the_traceback_of_a_bridge_that_fails_is_in_the_verbose_log(
+    install: Install, caplog: pytest.LogCaptureFixture
+) -> None:
+    install("acme", "room", "acme_room:FAILS")
+    caplog.set_level("INFO")
+    assert main(["--verbose", "bridge", "room", "http://127.0.0.1:9"]) == 2
+    assert "in fails\n" in caplog.text
 
 
 @pytest.mark.parametrize("command", [["serve", "--bridge", "embr"], ["bridge", "embr", "http://127.0.0.1:9"]])
