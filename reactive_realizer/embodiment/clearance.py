@@ -171,10 +171,13 @@ def _turns(body: Body, look: _Look, share: float) -> dict[str, Quat]:
         arm = arm.shifted(_shift(found, ways, shares))
         furthest = max((furthest, *ways.values()))
     for _ in range(_MORE if furthest > _FAR else 0):
+        before = arm
         for part, deep in left.items():
             found = part.contacts(arm.points, look.radii, 0.0)
             ways = {index: max(0.0, each.depth - deep.get(index, 0.0)) for index, each in found.items()}
             arm = arm.shifted(_shift(found, ways, shares))
+        if arm is before:
+            break
     turns = {arm.links.shoulder: arm.shoulder, arm.links.elbow: arm.elbow}
     if share == 1.0:
         return turns

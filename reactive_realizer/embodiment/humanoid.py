@@ -125,7 +125,10 @@ class Humanoid:
         added = (Layer(LayerKind.ADDITIVE, turned),) if turned else ()
         composed = compose(self.avatar.skeleton, (*layers, *added))
         smooth = self._inertialization(composed.shown, time)
-        clear = self.clearance(smooth, shares=self._ways_out(time - self._time))
+        shares = self._ways_out(time - self._time)
+        # A figure that stands still is where it was.
+        still = smooth is self._smooth and shares is ALL_THE_WAY
+        clear = self._clear if still else self.clearance(smooth, shares=shares)
         self._passed, self._time, self._wanted = time - self._time, time, composed.shown
         if self._limit is None:
             # Nothing was shown before: the figure does not come from elsewhere, however far its body at rest is away.
