@@ -114,9 +114,9 @@ class WorkFailed(CreationFault):
 
 
 class NoOrder(SchedulingFault):
-    """A before/after constraint under a strategy that does not keep them."""
+    """A before/after constraint under a strategy that does not keep it."""
 
     code = "no-order"
-    template = "the strategy '{strategy}' does not support before/after constraints; '{text}' is dropped"
+    template = "the strategy '{strategy}' does not keep the before/after constraint '{text}'"
     strategy: str
     text: str

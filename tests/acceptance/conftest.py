@@ -31,10 +31,12 @@ def open_still(tmp_path: Path) -> OpenStill:
     """Opens a pilot of Alice without idle animation, and keeps her frames."""
 
     @asynccontextmanager
-    async def opened(*assets: Path, avatar: str = "female", scene: str = "") -> AsyncIterator[RealizerPilot]:
+    async def opened(
+        *assets: Path, avatar: str = "female", scene: str = "", strategy: str = "convex"
+    ) -> AsyncIterator[RealizerPilot]:
         human = tmp_path / "still.toml"
         human.write_text(f'[character.alice]\navatar = "avatars/{avatar}.glb"\nidle = false\n{scene}')
-        async with open_pilot(SceneOptions(human, "text", assets, verify=True)) as pilot:
+        async with open_pilot(SceneOptions(human, "text", assets, strategy=strategy, verify=True)) as pilot:
             pilot.watch()
             yield pilot
 

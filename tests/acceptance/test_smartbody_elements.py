@@ -155,13 +155,14 @@ async def test_a_clip_that_is_queued_starts_when_the_one_before_it_ends(open_sti
     )
 
 
+@pytest.mark.parametrize("strategy", ["convex", "embr", "smartbody"])
 @pytest.mark.parametrize(("own", "start"), [("5", 5.0), ("0.5", 1.5)])
 async def test_a_clip_that_is_queued_starts_no_sooner_than_its_own_start(
-    open_still: OpenStill, tmp_path: Path, own: str, start: float
+    open_still: OpenStill, tmp_path: Path, own: str, start: float, strategy: str
 ) -> None:
     (tmp_path / "Brad@Raise.skm").write_text(MOTION)
     queued = f'<animation id="b" name="Brad@Raise" sbm:schedule-mode="Queued" start="{own}"/>'
-    async with open_still(tmp_path) as pilot:
+    async with open_still(tmp_path, strategy=strategy) as pilot:
         pilot.perform(act(f'<animation id="a" name="Brad@Raise"/>{queued}'))
         await pilot.advance(8)
     assert pilot.feedback.warnings == []

@@ -14,6 +14,7 @@ from reactive_realizer.scheduler.faults import (
 )
 from reactive_realizer.scheduler.offset_union_find import TIE_TOLERANCE, OffsetUnionFind
 from reactive_realizer.scheduler.problem import Item, Node, Origin, Point, SchedulingProblem, Tie
+from reactive_realizer.scheduler.smartbody.followers import followers, with_followers
 from reactive_realizer.scheduler.smartbody.placement import (
     Cluster,
     Placement,
@@ -35,8 +36,8 @@ class SmartBodyStrategy:
     """Places behaviors one by one, each by its ties to earlier ones; then moves free clusters to the block's start.
 
     If a behavior cannot be placed, a speech without a given time is moved later, or else one of the ties is given up.
-    The strategy keeps no before/after constraints, and its plans depend on the order of the behaviors (thesis 7.1.6).
-    It is the reference for better strategies.
+    The behaviors that only `after` constraints place come last. The strategy keeps no other before/after constraints,
+    and its plans depend on the order of the behaviors (thesis 7.1.6). It is the reference for better strategies.
     """
 
     name = "smartbody"
@@ -44,10 +45,18 @@ class SmartBodyStrategy:
     def solve(self, problem: SchedulingProblem) -> Solution:
         """See `SchedulingStrategy`; after a loss, the rest is placed again without it."""
         left, lost = problem, list[Loss]()
-        while (solution := _Run(left).solve()).losses:
+        while (solution := _once(left)).losses:
             lost += [with_required(loss, problem) for loss in solution.losses]
             left = solution.kept_of(left)
         return Solution(solution.times, tuple(lost))
+
+
+def _once(problem: SchedulingProblem) -> Solution:
+    """A solution with the first losses."""
+    following = followers(problem)
+    kept = {id(order) for orders in following.values() for order in orders}
+    others = problem.only(lambda item: item.behavior.id not in following, lambda each: id(each) not in kept)
+    return with_followers(problem, _Run(others).solve(), following)
 
 
 class _Run:
