@@ -16,6 +16,7 @@ _ANGLES: Final = "hpr"
 """Heading about y, pitch about x and roll about z, degrees; the roll is first, and the heading last."""
 _INIT: Final = re.compile(r"pawn\s+(\S+)\s+init\b(.*)", re.DOTALL)
 _SET: Final = re.compile(r"set\s+pawn\s+(\S+)\s+world[_-]offset\b(.*)", re.DOTALL)
+_OF_PAWN: Final = re.compile(r"(?:set\s+)?pawn\s")
 _PLACE: Final = re.compile(r"\bloc\b\s*(\S*)\s*(\S*)\s*(\S*)")
 _OFFSET: Final = re.compile(rf"(\S+)(?:\s+(?![{_AXES}{_ANGLES}](?!\S))(\S+))?")
 """A coordinate with its value, which may be missing."""
@@ -39,10 +40,11 @@ class Pawn(NamedTuple):
     def of(cls, message: VhMessage) -> "Pawn | None":
         """The pawn of a command: ``pawn NAME init loc X Y Z``, or ``set pawn NAME world_offset x X h H``.
 
-        An offset that cannot be read is left out, with a log message.
+        What cannot be read of it is left out, with a log message.
 
         Raises:
-            ValueError: a coordinate of the place is not a finite number, or no offset can be read.
+            ValueError: a coordinate of the place is not a finite number, or no offset can be read; or the command does
+                something else with a pawn.
         """
         if message.word != _COMMAND:
             return None
@@ -50,9 +52,13 @@ class Pawn(NamedTuple):
             place = _PLACE.search(made[2])
             if place is not None and not place[3]:
                 raise ValueError("loc requires three numbers")
+            if others := _PLACE.sub("", made[2], 1).split():
+                logger.warning("only loc of the pawn '%s' is read, not %s", quoted(made[1]), quoted(" ".join(others)))
             return cls(made[1], dict(zip(_AXES, map(_finite, place.groups() if place else "000"), strict=True)))
         if moved := _SET.match(message.argument):
             return cls(moved[1], _offsets(moved[1], moved[2]))
+        if _OF_PAWN.match(message.argument):
+            raise ValueError("only init and world_offset do this")
         return None
 
     def after(self, before: "Pawn | None") -> "Pawn":

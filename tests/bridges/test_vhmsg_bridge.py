@@ -160,6 +160,21 @@ def test_pawns_may_be_placed_in_centimeters() -> None:
     assert moved == {"type": "world", "set": {"cup": pytest.approx([0.5, 1.2, -0.3])}}
 
 
+@pytest.mark.parametrize("init", ["geom sphere size 0.1 loc 1 2 3", "loc 1 2 3 geom sphere size 0.1"])
+def test_what_is_not_read_of_a_pawn_is_logged(toolkit: Toolkit, caplog: pytest.LogCaptureFixture, init: str) -> None:
+    placed = toolkit.bridge.take(VhMessage("sbm", f"pawn cup init {init}"))
+    assert placed == {"type": "world", "set": {"cup": [1.0, 2.0, 3.0]}}
+    assert caplog.messages == ["only loc of the pawn 'cup' is read, not geom sphere size 0.1"]
+
+
+@pytest.mark.parametrize("command", ["pawn cup prim", "set pawn cup scale 2", "pawn * clear"])
+def test_a_command_that_does_something_else_with_a_pawn_is_logged(
+    toolkit: Toolkit, caplog: pytest.LogCaptureFixture, command: str
+) -> None:
+    assert toolkit.bridge.take(VhMessage("sbm", command)) is None
+    assert caplog.messages == [f"a pawn cannot be placed: only init and world_offset do this: {command}"]
+
+
 @pytest.mark.parametrize("place", ["far 1 2", "nan 0 0", "1e999 0 0"])
 def test_a_pawn_that_cannot_be_placed_is_logged(toolkit: Toolkit, caplog: pytest.LogCaptureFixture, place: str) -> None:
     with caplog.at_level(logging.WARNING):

@@ -52,6 +52,16 @@ def take_number(tree: Tree, name: str, source: BlockSource, low: float, high: fl
         raise source.bad_attribute(tree, name, text, refused) from None
 
 
+def take_time(tree: Tree, name: str, source: BlockSource, longest: float) -> float | None:
+    """Removes an attribute that is a time, s; None if it is not written, or is -1, which is none in SmartBody, or 0.
+
+    Raises:
+        RealizerError: ``bad-attribute``: it is not a number from -1 to `longest`.
+    """
+    time = take_number(tree, name, source, -1.0, longest)
+    return time if time is not None and time > 0.0 else None
+
+
 def give_back(tree: Tree, name: str, value: str) -> None:
     """Writes an attribute again whose value is unknown, so that `left_out` names it."""
     tree.set(f"{_PREFIX}{name}", value)

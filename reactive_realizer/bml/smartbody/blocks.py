@@ -1,16 +1,16 @@
 """Behaviors of SmartBody that are several here, or one together, in a block before its behaviors are read."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from itertools import groupby, islice, pairwise
 from typing import Final
 
 from lxml import etree
 
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.names import SBM
+from reactive_realizer.bml.names import BMLA, SBM
 from reactive_realizer.bml.smartbody.attributes import AT_ONCE, WITHOUT_EFFECT, drop, set_parameter, take, value_of
-from reactive_realizer.bml.smartbody.gestures import ends
+from reactive_realizer.bml.smartbody.gestures import AXES, UPDATE, ends
 from reactive_realizer.bml.trees import Tree, name_of, namespace_of
 
 _JOINTS: Final = "joint-range"
@@ -26,6 +26,7 @@ _OF_NOISE: Final = tuple(
 _OF_EACH_WAY: Final = ("speed", "manner")
 """Attributes of a way along several points that the way to each of them has."""
 _CLIPS: Final = frozenset({"animation", "states", "blend"})
+_BLENDS: Final = frozenset({"states", "blend"})
 _SCHEDULE: Final = "schedule-mode"
 _QUEUED: Final = "queued"
 _OF_ONE_FACE: Final = frozenset({"type", "au", "side", "amount"})
@@ -37,12 +38,14 @@ def regroup(block: Tree, source: BlockSource) -> None:
 
     - Action units with the same times become one face, so that they move the mouth together.
     - Noise of several joints becomes noise of each, and noise in the hold of a gesture a behavior of its own.
+    - An update of a blend before it becomes changes of the parameters of that one.
     - A clip that is queued starts at the end of the one before it.
     - A reach with a walk becomes a walk and a reach, and a way along several points becomes several ways.
     """
     room = source.limits.behaviors_per_block
     for holder in [block, *block.iter("required")]:
         _join_faces(holder, source)
+        _update_blends(holder, source)
         _queue_clips(holder, source)
         for tree in list(holder):
             split = _SPLITS.get(name_of(tree))
@@ -80,13 +83,34 @@ def _join_faces(holder: Tree, source: BlockSource) -> None:
         whole.tail, faces[-1].tail = faces[-1].tail, None
 
 
+def _update_blends(holder: Tree, source: BlockSource) -> None:
+    """Has each update of a blend change the parameters of the last blend before it that has its name."""
+    played: dict[str, Tree] = {}
+    for tree in _clips(holder, _BLENDS):
+        name, given = value_of(tree, "name"), {axis: value_of(tree, axis) for axis in AXES}
+        if value_of(tree, "mode").lower() != UPDATE:
+            played[name] = tree
+        elif name in played and any(given.values()) and all(map(_NUMBER.fullmatch, filter(None, given.values()))):
+            _give_id(played[name], source)
+            _give_id(tree, source)
+            times = _copied(tree, ("id", "start"))
+            for axis in (axis for axis, value in given.items() if value):
+                attributes = {"target": played[name].get("id", ""), "paramId": axis, **times}
+                change = etree.Element(f"{{{BMLA}}}parametervaluechange", attributes)
+                etree.SubElement(change, f"{{{BMLA}}}trajectory", {"type": "instant", "targetValue": given[axis]})
+                for each in change.iter():
+                    source.place(each, tree)
+                tree.addprevious(change)
+                times.pop("id", None)
+            holder.remove(tree)
+
+
 def _queue_clips(holder: Tree, source: BlockSource) -> None:
     """Ties the start of each clip that is queued to the end of the one before it, if that one ends of itself.
 
     With a start of its own, it comes after both.
     """
-    clips = [tree for tree in holder if name_of(tree) in _CLIPS and namespace_of(tree) in {"", SBM}]
-    for before, clip in pairwise(clips):
+    for before, clip in pairwise(_clips(holder, _CLIPS)):
         if value_of(clip, _SCHEDULE).lower() == _QUEUED and ends(before):
             drop(clip, _SCHEDULE)
             _give_id(before, source)
@@ -95,6 +119,11 @@ def _queue_clips(holder: Tree, source: BlockSource) -> None:
                 clip.set("start", end)
             elif source.holds_ref(clip, "start"):  # what is no reference is left to the reader, which refuses it
                 _start_after(clip, (end, str(clip.attrib.pop("start"))), source)
+
+
+def _clips(holder: Tree, names: Container[str]) -> list[Tree]:
+    """The clips of a block with one of some names."""
+    return [tree for tree in holder if name_of(tree) in names and namespace_of(tree) in {"", SBM}]
 
 
 def _start_after(tree: Tree, references: Iterable[str], source: BlockSource) -> None:

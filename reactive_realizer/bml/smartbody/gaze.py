@@ -14,6 +14,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     set_parameter,
     take,
     take_number,
+    take_time,
     tie,
 )
 from reactive_realizer.bml.smartbody.joints import target_named
@@ -89,9 +90,9 @@ def _tie_times(tree: Tree, source: BlockSource) -> list[Fault]:
     """
     aimed = "target" in tree.attrib
     for name in ("time-hint", "fade-in") if aimed else ("fade-out",):
-        if time := take_number(tree, name, source, 0.0, _LONGEST):
+        if time := take_time(tree, name, source, _LONGEST):
             tie(tree, "ready", "start", time)
-    if aimed and "end" in tree.attrib and (time := take_number(tree, "fade-out", source, 0.0, _LONGEST)):
+    if aimed and "end" in tree.attrib and (time := take_time(tree, "fade-out", source, _LONGEST)):
         return fade_out(tree, "fade-out", time, source)
     return []
 

@@ -13,6 +13,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     set_parameter,
     take,
     take_number,
+    take_time,
     tie,
     value_of,
 )
@@ -48,11 +49,11 @@ _OF_CLIPS: Final = ("style", "emotion", "overlay", "prestroke_hold_idlemotion", 
 """Attributes for the choice of clips, and for tracks of motion."""
 _AS_HERE: Final = {"overlay": "false", "mode": "schedule", "schedule-mode": "now"}
 """Attributes of clips, and the values with which they ask for what happens here anyway."""
-_UPDATE: Final = "update"
+UPDATE: Final = "update"
 """The mode of a blend that changes the mixture of the one that plays."""
 _ANIMATION: Final = "animation"
 """The clips that are played once by default; states and blends are loops."""
-_AXES: Final = "xyz"
+AXES: Final = "xyz"
 """Parameters of blends."""
 _FARTHEST: Final = 1e6
 _DURATIONS: Final = (0.01, 600.0)
@@ -69,7 +70,7 @@ def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
     _start_as_early_as_possible(tree)
     if "name" in tree.attrib:
         _mix(tree, source)
-    faults = left_out(tree, source, *_OF_CLIPS, *_AXES)
+    faults = left_out(tree, source, *_OF_CLIPS, *AXES)
     if "name" in tree.attrib:
         drop(tree, "lexeme", "type", "mode")
         tree.tag = _CLIP
@@ -78,8 +79,7 @@ def adapt_gesture(tree: Tree, source: BlockSource) -> list[Fault]:
         kind = take(tree, "type")
         tree.set("lexeme", _LEXEMES.get(kind.upper(), kind))
     for name, (first, last) in _HOLDS.items():
-        hold = take_number(tree, name, source, -1.0, _LONGEST_HOLD)
-        if hold is not None and hold > 0.0:
+        if hold := take_time(tree, name, source, _LONGEST_HOLD):
             tie(tree, last, first, hold)
     return faults
 
@@ -105,7 +105,7 @@ def adapt_clip(tree: Tree, source: BlockSource) -> list[Fault]:
         set_parameter(tree, "loop", "true", source)
     drop(tree, "wrap-mode", "loop")
     _mix(tree, source)
-    updates = [_update(tree, source)] if value_of(tree, "mode").lower() == _UPDATE else []
+    updates = [_update(tree, source)] if value_of(tree, "mode").lower() == UPDATE else []
     faults = left_out(tree, source, *_OF_CLIPS, "mode")
     tree.tag = _CLIP
     return [*updates, *faults]
@@ -119,7 +119,7 @@ def _group(tree: Tree, source: BlockSource) -> None:
 
 
 def _update(tree: Tree, source: BlockSource) -> Fault:
-    """The fault of a blend that is to change the mixture of the one that plays."""
+    """The fault of a blend that is to change the mixture of one that plays, and which its block does not contain."""
     drop(tree, "mode")
     return source.located(tree, PlaysOver())
 
@@ -151,7 +151,7 @@ def _mix(tree: Tree, source: BlockSource) -> None:
     if _adds(tree):
         set_parameter(tree, "additive", "true", source)
     drop(tree, "blend-mode", "additive")
-    for name in _AXES:
+    for name in AXES:
         value = take_number(tree, name, source, -_FARTHEST, _FARTHEST)
         if value is not None:
             set_parameter(tree, name, f"{value:g}", source)

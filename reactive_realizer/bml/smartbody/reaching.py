@@ -16,6 +16,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     set_parameter,
     take,
     take_number,
+    take_time,
     tie,
 )
 from reactive_realizer.bml.smartbody.joints import joint_named, target_named
@@ -75,7 +76,7 @@ def adapt_constraint(tree: Tree, source: BlockSource) -> list[Fault]:
     """
     drop(tree, "handle", "effector-root", "root", "constraint-type")
     _choose_hand(tree, "effector")
-    fades = {name: take_number(tree, name, source, 0.0, _LONGEST) for name in ("fade-in", "fade-out")}
+    fades = {name: take_time(tree, name, source, _LONGEST) for name in ("fade-in", "fade-out")}
     if "target" not in tree.attrib:
         return _release(tree, source)
     if fade_in := fades["fade-in"]:

@@ -4,7 +4,7 @@ import pytest
 
 from reactive_realizer.bml.behaviors import Gesture
 from reactive_realizer.bml.block import Order
-from reactive_realizer.bml.extensions import Keyframe
+from reactive_realizer.bml.extensions import Keyframe, ParameterValueChange
 from reactive_realizer.bml.vocabulary import Mode
 
 from .reading import behaviors, block, only, read, told
@@ -137,7 +137,30 @@ def test_what_clips_cannot_do_is_told() -> None:
     assert sentence == "sbm:schedule-mode, sbm:transition-length of SmartBody has no effect on <blend> here"
 
 
-def test_an_update_of_a_blend_plays_over_it_and_says_once_what_changes_it() -> None:
+def test_an_update_of_a_blend_of_its_block_changes_the_parameters_of_that_blend() -> None:
+    blends = '<blend name="run"/><blend id="walks" name="walk" x="0"/><blend name="run"/>'
+    _, _, _, *changes = behaviors(f'{blends}<blend id="u" mode="update" name="walk" x="0.5" y="20" start="2" end="3"/>')
+    assert [type(change) for change in changes] == [ParameterValueChange] * 2
+    assert [(each.target, each.parameter, each.trajectory.target_value) for each in changes] == [  # type: ignore[attr-defined]
+        ("walks", "x", 0.5),
+        ("walks", "y", 20.0),
+    ]
+    assert [str(change.syncs["start"]) for change in changes] == ["2", "2"]
+    assert changes[0].id == "u"
+
+
+def test_an_update_of_a_blend_with_a_parameter_that_is_no_number_is_told() -> None:
+    (sentence,) = told('<blend name="walk"/><blend mode="update" name="walk" x="far"/>')
+    assert sentence == "x='far' of <blend>: not a finite number"
+
+
+@pytest.mark.parametrize("before", ["", '<blend id="r" name="run"/>', '<animation id="r" name="walk"/>'])
+def test_an_update_of_a_blend_that_its_block_does_not_contain_plays_over_the_one_that_plays(before: str) -> None:
+    (sentence,) = told(f'{before}<blend id="w" mode="update" name="walk" y="20"/>')
+    assert sentence.startswith("mode='update' names no behavior that it changes, so this blend plays over the one")
+
+
+def test_an_update_of_a_blend_of_another_block_says_once_what_changes_it() -> None:
     update = '<blend mode="update" name="walk" sbm:schedule-mode="Now" sbm:wrap-mode="Loop" y="20"/>'
     (sentence,) = told(update)
     assert sentence.startswith("mode='update' names no behavior that it changes, so this blend plays over the one")

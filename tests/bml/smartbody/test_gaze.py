@@ -66,6 +66,11 @@ def test_a_time_hint_or_a_fade_is_the_time_of_the_turn() -> None:
         assert str(gaze(f'sbm:{name}="0.8" start="2"').syncs["ready"]) == "g:start+0.8"
 
 
+@pytest.mark.parametrize("name", ["time-hint", "fade-in", "fade-out"])
+def test_a_time_of_minus_1_is_none_as_in_smartbody(name: str) -> None:
+    assert set(gaze(f'sbm:{name}="-1" end="3"').syncs) == {"end"}
+
+
 def test_a_target_may_be_a_joint_of_smartbody_skeletons() -> None:
     read = only('<gaze target="brad:eyeball_left"/>')
     assert isinstance(read, Gaze)

@@ -108,7 +108,12 @@ def test_a_constraint_of_something_else_stays_for_engines_of_plug_ins_and_is_tol
     assert [each.namespace for each in block.behaviors] == ["urn:smartbody"]
 
 
-@pytest.mark.parametrize("fade", ["-1", "nan", "soon"])
+def test_a_fade_of_minus_1_is_none_as_in_smartbody() -> None:
+    constraint = only('<sbm:constraint effector="r_wrist" target="box" sbm:fade-in="-1" sbm:fade-out="-1.0" end="3"/>')
+    assert {point: str(ref) for point, ref in constraint.syncs.items()} == {"start": "0", "end": "3"}
+
+
+@pytest.mark.parametrize("fade", ["-2", "nan", "soon"])
 def test_a_constraint_with_a_bad_fade_is_refused_with_one_message(fade: str) -> None:
     (sentence,) = told(
         f'<sbm:constraint effector="r_wrist" target="box" sbm:fade-in="{fade}" sbm:fade-out="1" end="3"/>'
