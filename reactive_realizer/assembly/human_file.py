@@ -11,8 +11,8 @@ from typing import Any, Final, TypeVar
 from reactive_realizer.assembly.faults import BadHumanFile
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.expressivity import MOST, Expressivity
-from reactive_realizer.bml.faults import NotAnId
 from reactive_realizer.bml.names import BLOCK, EVENTS
+from reactive_realizer.bml.value_faults import NotAnId
 from reactive_realizer.embodiment.vector import ZERO, Vec3
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits

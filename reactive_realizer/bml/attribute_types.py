@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import ClassVar, Final
 
-from reactive_realizer.bml.faults import NotAnEvent, NotAnId, NotAVector, NotWhole, OutOfRange, UnknownWord
 from reactive_realizer.bml.names import BLOCK
 from reactive_realizer.bml.sync_ref import NUMBER
+from reactive_realizer.bml.value_faults import NotAnEvent, NotAnId, NotAVector, NotWhole, OutOfRange, UnknownWord
 from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import NotANumber, RealizerError
 from reactive_realizer.limits import Limits

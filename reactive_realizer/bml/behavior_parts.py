@@ -11,15 +11,9 @@ from reactive_realizer.bml.behaviors import Face, Mark, MarkTime, Pose, Posture,
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import BehaviorParameter, ParameterValueChange, Trajectory
-from reactive_realizer.bml.faults import (
-    DuplicateId,
-    EventTooLong,
-    MissingElement,
-    RepeatedElement,
-    UnknownMark,
-    UtteranceTooLong,
-)
+from reactive_realizer.bml.faults import DuplicateId, EventTooLong, MissingElement, RepeatedElement
 from reactive_realizer.bml.names import OWN
+from reactive_realizer.bml.speech_faults import UnknownMark, UtteranceTooLong
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, is_core, name_of
 from reactive_realizer.bml.vocabulary import PosePart
 from reactive_realizer.errors import Fault, RealizerError

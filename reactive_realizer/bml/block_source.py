@@ -14,7 +14,6 @@ from lxml import etree
 from reactive_realizer.bml.attributes import Attribute
 from reactive_realizer.bml.faults import (
     BadAttribute,
-    ExternalReference,
     ForeignAttribute,
     MissingAttribute,
     StrayText,
@@ -36,6 +35,7 @@ from reactive_realizer.bml.trees import (
     namespace_of,
     stray_text_of,
 )
+from reactive_realizer.bml.value_faults import ExternalReference
 from reactive_realizer.bml.xml_roots import Root
 from reactive_realizer.errors import Fault, RealizerError, quoted
 from reactive_realizer.limits import Limits

@@ -11,8 +11,9 @@ from reactive_realizer.bml.block import Constraint, Order, OrderKind, Problem, S
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.drafts import modernize
 from reactive_realizer.bml.extensions import Noise, lasts
-from reactive_realizer.bml.faults import DuplicateId, LipsLeftOut, MissingElement, MoreProblems, TooManyBehaviors
+from reactive_realizer.bml.faults import DuplicateId, MissingElement, MoreProblems, TooManyBehaviors
 from reactive_realizer.bml.smartbody.behaviors import adapt, is_of_smartbody
+from reactive_realizer.bml.speech_faults import LipsLeftOut
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import Tree, children_of, is_continuous, is_core, name_of, namespace_of
 from reactive_realizer.errors import Fault, RealizerError, quoted

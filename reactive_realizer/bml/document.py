@@ -22,20 +22,13 @@ from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.content_reader import ContentReader
 from reactive_realizer.bml.draft_documents import BlockNames, rename_elements, unwrapped
 from reactive_realizer.bml.drafts import modernize_block
-from reactive_realizer.bml.faults import (
-    NoBlock,
-    NoBlockId,
-    NotBml,
-    NotOuterPoint,
-    NotOwnPoint,
-    TooManyBytes,
-    TooManyRoots,
-)
+from reactive_realizer.bml.faults import NoBlock, NoBlockId, NotBml, TooManyBytes, TooManyRoots
 from reactive_realizer.bml.names import BLOCK, CONTINUOUS
 from reactive_realizer.bml.smartbody.blocks import regroup
 from reactive_realizer.bml.smartbody.requests import Request
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS, SyncRef
 from reactive_realizer.bml.trees import Tree, extensions_of, is_continuous, is_core, name_of
+from reactive_realizer.bml.value_faults import NotOuterPoint, NotOwnPoint
 from reactive_realizer.bml.xml_roots import Root, decode, read_roots
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.limits import Limits

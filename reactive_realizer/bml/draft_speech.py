@@ -11,8 +11,8 @@ from typing import Final, NamedTuple
 from lxml import etree
 
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import TooMuchMarkup, UnknownMark
 from reactive_realizer.bml.smartbody.requests import UNCLOSED_MARK
+from reactive_realizer.bml.speech_faults import TooMuchMarkup, UnknownMark
 from reactive_realizer.bml.ssml_elements import SSML
 from reactive_realizer.bml.ssml_reader import MOST_MARKUP
 from reactive_realizer.bml.ssml_values import LONGEST_BREAK

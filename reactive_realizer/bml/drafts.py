@@ -14,10 +14,10 @@ from reactive_realizer.bml.behaviors import REFERENCE
 from reactive_realizer.bml.block import CAST
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.draft_speech import modernize_speech
-from reactive_realizer.bml.faults import UnknownWord
 from reactive_realizer.bml.names import BMLA, BMLT
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, name_of, stray_text_of
+from reactive_realizer.bml.value_faults import UnknownWord
 from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.errors import Fault, RealizerError
 

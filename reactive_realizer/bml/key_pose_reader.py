@@ -5,8 +5,9 @@ from typing import Any
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import BeyondLimit, DuplicateId, HeldCurve, MissingElement, PoseTooEarly
+from reactive_realizer.bml.faults import DuplicateId, MissingElement
 from reactive_realizer.bml.key_poses import GOALS, KeyPose, KeyPoseGoal, KeyPoses
+from reactive_realizer.bml.motion_faults import BeyondLimit, HeldCurve, PoseTooEarly
 from reactive_realizer.bml.trees import Tree, children_of, name_of
 from reactive_realizer.errors import Fault, RealizerError
 

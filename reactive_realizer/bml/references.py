@@ -5,7 +5,8 @@ from dataclasses import replace
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.block import BehaviorBlock, Constraint, DefineProc, Order, Problem
-from reactive_realizer.bml.faults import (
+from reactive_realizer.bml.names import ANTICIPATORS, Location
+from reactive_realizer.bml.reference_faults import (
     LostWith,
     UnknownBlock,
     UnknownBlockPoint,
@@ -13,7 +14,6 @@ from reactive_realizer.bml.faults import (
     UnknownReference,
     UnknownSync,
 )
-from reactive_realizer.bml.names import ANTICIPATORS, Location
 from reactive_realizer.bml.sync_ref import SyncRef, named_point
 from reactive_realizer.errors import Fault
 

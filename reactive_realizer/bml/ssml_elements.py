@@ -6,10 +6,11 @@ from types import MappingProxyType
 from typing import Final, TypeVar
 
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import MissingAttribute, UnknownWord
+from reactive_realizer.bml.faults import MissingAttribute
 from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.bml.ssml_values import read_pitch, read_rate, read_strength, read_time, read_volume
 from reactive_realizer.bml.trees import Tree, name_of, names_in, namespace_of
+from reactive_realizer.bml.value_faults import UnknownWord
 from reactive_realizer.errors import Fault, RealizerError, quoted
 
 SSML: Final = "http://www.w3.org/2001/10/synthesis"

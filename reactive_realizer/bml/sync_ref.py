@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final, Self
 
-from reactive_realizer.bml.faults import AbsurdTime, NotAReference, OnlyBlockStart
 from reactive_realizer.bml.names import BLOCK
+from reactive_realizer.bml.value_faults import AbsurdTime, NotAReference, OnlyBlockStart
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 

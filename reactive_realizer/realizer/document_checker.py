@@ -9,8 +9,9 @@ from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.block import BLOCK_EXTENSIONS, BehaviorBlock, DefineProc, Parsed, Problem
 from reactive_realizer.bml.extensions import ParameterValueChange
-from reactive_realizer.bml.faults import ForeignAttribute, UnknownSync
+from reactive_realizer.bml.faults import ForeignAttribute
 from reactive_realizer.bml.names import ANTICIPATORS
+from reactive_realizer.bml.reference_faults import UnknownSync
 from reactive_realizer.bml.references import (
     check_references,
     predictions_of,

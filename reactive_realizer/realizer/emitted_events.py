@@ -1,7 +1,7 @@
 """The events that behaviors emit, as points of an anticipator."""
 
 from reactive_realizer.bml.attribute_types import EventName
-from reactive_realizer.bml.faults import NotAnEvent
+from reactive_realizer.bml.value_faults import NotAnEvent
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Predictions

@@ -9,8 +9,8 @@ from typing import NamedTuple, TypeVar
 
 from reactive_realizer.bml.block import BehaviorBlock, OrderKind, Synchronize
 from reactive_realizer.bml.block import Order as OrderConstraint
-from reactive_realizer.bml.faults import LostWith, UnknownReference, UnknownSync
 from reactive_realizer.bml.names import ANTICIPATORS
+from reactive_realizer.bml.reference_faults import LostWith, UnknownReference, UnknownSync
 from reactive_realizer.bml.references import predictions_of, unknown_behavior, unknown_block, unknown_block_point
 from reactive_realizer.bml.sync_ref import FIRST_STROKE, OWN_BLOCK_POINTS, SyncRef, named_point
 from reactive_realizer.errors import Fault, RealizerError, SchedulingFault

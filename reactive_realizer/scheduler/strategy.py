@@ -4,7 +4,7 @@ from collections.abc import Collection, Container, Iterator
 from dataclasses import replace
 from typing import Protocol
 
-from reactive_realizer.bml.faults import LostWith
+from reactive_realizer.bml.reference_faults import LostWith
 from reactive_realizer.scheduler.faults import NamesDropped
 from reactive_realizer.scheduler.peg_layout.peg_layout import PegLayout
 from reactive_realizer.scheduler.problem import SchedulingProblem

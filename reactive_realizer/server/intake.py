@@ -11,8 +11,8 @@ from xml.sax.saxutils import quoteattr
 from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.bml.document import parse
-from reactive_realizer.bml.faults import AbsurdTime
 from reactive_realizer.bml.names import BML
+from reactive_realizer.bml.value_faults import AbsurdTime
 from reactive_realizer.clock.ticker import tick_time
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioHeard

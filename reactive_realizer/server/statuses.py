@@ -8,14 +8,8 @@ from aiohttp import WSCloseCode
 
 from reactive_realizer.assembly.faults import TwoAssets
 from reactive_realizer.binding.faults import NoAsset
-from reactive_realizer.bml.faults import (
-    TooDeep,
-    TooManyAttributes,
-    TooManyBehaviors,
-    TooManyBytes,
-    TooManyRoots,
-    UtteranceTooLong,
-)
+from reactive_realizer.bml.faults import TooDeep, TooManyAttributes, TooManyBehaviors, TooManyBytes, TooManyRoots
+from reactive_realizer.bml.speech_faults import UtteranceTooLong
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.anticipator import PredictsItself
 from reactive_realizer.pegboard.pegboard import NoPoint

@@ -11,8 +11,8 @@ from reactive_realizer.bml.embr.sequence import SequenceReader
 from reactive_realizer.bml.embr.syntax import SEQUENCE, read_nodes, text_of
 from reactive_realizer.bml.embr.timeline import Timed, timed
 from reactive_realizer.bml.embr.values import Notes
-from reactive_realizer.bml.faults import GivenTwice
 from reactive_realizer.bml.key_poses import KeyPoses
+from reactive_realizer.bml.motion_faults import GivenTwice
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.limits import Limits
 

@@ -13,7 +13,7 @@ from reactive_realizer.bml.embr.syntax import NUCLEUS, ORIENTATION, POSITION, SW
 from reactive_realizer.bml.embr.timeline import SHORTEST, Timed
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.expressivity import MOST, NEUTRAL, Expressivity
-from reactive_realizer.bml.faults import GivenTwice
+from reactive_realizer.bml.motion_faults import GivenTwice
 from reactive_realizer.errors import RealizerError, quoted
 
 _PARAMETERS: Final = ("SPATIAL_EXT", "TEMPORAL_EXT", "POWER", "FLUIDITY")

@@ -18,8 +18,8 @@ from reactive_realizer.bml.embr.timeline import Timed, sequence_start, timed
 from reactive_realizer.bml.embr.values import Notes
 from reactive_realizer.bml.embr.words import MORPHS, SHADERS, Expression
 from reactive_realizer.bml.extensions import FaceKeyframe, Keyframe
-from reactive_realizer.bml.faults import BeyondLimit
 from reactive_realizer.bml.key_poses import KeyPose, KeyPoseGoal, KeyPoses
+from reactive_realizer.bml.motion_faults import BeyondLimit
 from reactive_realizer.bml.names import BMLT, OWN, Location, is_sync_id
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.time_warps import warped

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from reactive_realizer.bml.embr.faults import NotAStatement, StrayEnd, Unclosed, UnknownScriptWord
-from reactive_realizer.bml.faults import GivenTwice
+from reactive_realizer.bml.motion_faults import GivenTwice
 from reactive_realizer.bml.names import Location
 from reactive_realizer.errors import Fault, quoted
 

@@ -6,7 +6,8 @@ from enum import StrEnum
 from typing import Final, Protocol, TypeVar
 
 from reactive_realizer.bml.attribute_types import Boolean, Enumeration, Float
-from reactive_realizer.bml.faults import BadAttribute, BeyondLimit, GivenTwice, MissingAttribute, UnknownElement
+from reactive_realizer.bml.faults import BadAttribute, MissingAttribute, UnknownElement
+from reactive_realizer.bml.motion_faults import BeyondLimit, GivenTwice
 from reactive_realizer.bml.murml.description import Frame, Keyframing
 from reactive_realizer.bml.murml.faults import BadPosture, FrameTooEarly, NothingToPlay
 from reactive_realizer.bml.names import Location

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final, TypeVar
 
-from reactive_realizer.bml.faults import BeyondLimit, GivenTwice, UnknownElement
+from reactive_realizer.bml.faults import UnknownElement
+from reactive_realizer.bml.motion_faults import BeyondLimit, GivenTwice
 from reactive_realizer.bml.murml.description import (
     STRAIGHT,
     Bend,

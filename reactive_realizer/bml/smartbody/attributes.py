@@ -9,8 +9,8 @@ from lxml import etree
 
 from reactive_realizer.bml.attribute_types import Float
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import FadeTooLong, NoCounterpart
 from reactive_realizer.bml.names import BMLT, SBM
+from reactive_realizer.bml.smartbody.faults import FadeTooLong, NoCounterpart
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.bml.trees import PARAMETER, Tree, name_of
 from reactive_realizer.errors import Fault, RealizerError

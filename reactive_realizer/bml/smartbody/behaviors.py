@@ -8,7 +8,6 @@ from typing import Final
 
 from reactive_realizer.bml.behaviors import MOST_REPETITIONS
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import NoOrientation
 from reactive_realizer.bml.names import BMLA, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     WITHOUT_EFFECT,
@@ -22,6 +21,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     tie,
 )
 from reactive_realizer.bml.smartbody.faces import adapt_face
+from reactive_realizer.bml.smartbody.faults import NoOrientation
 from reactive_realizer.bml.smartbody.gaze import adapt_gaze
 from reactive_realizer.bml.smartbody.gestures import adapt_clip, adapt_gesture
 from reactive_realizer.bml.smartbody.noise import adapt_noise

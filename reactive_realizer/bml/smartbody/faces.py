@@ -4,7 +4,6 @@ from typing import Final
 
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.extensions import WHOLE_FACE
-from reactive_realizer.bml.faults import UnknownWord
 from reactive_realizer.bml.names import BMLT
 from reactive_realizer.bml.smartbody.attributes import (
     drop,
@@ -17,6 +16,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     tie,
 )
 from reactive_realizer.bml.trees import Tree
+from reactive_realizer.bml.value_faults import UnknownWord
 from reactive_realizer.errors import Fault, RealizerError
 
 _LONGEST: Final = 60.0

@@ -3,7 +3,6 @@
 from typing import Final
 
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import PlaysOver
 from reactive_realizer.bml.names import BMLT, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     AT_ONCE,
@@ -17,6 +16,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     tie,
     value_of,
 )
+from reactive_realizer.bml.smartbody.faults import PlaysOver
 from reactive_realizer.bml.smartbody.joints import joint_named
 from reactive_realizer.bml.trees import Tree, name_of
 from reactive_realizer.errors import Fault

@@ -4,7 +4,6 @@ from typing import Final
 
 from reactive_realizer.bml.behaviors import REACH
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import LeftToPlugins
 from reactive_realizer.bml.names import OWN, SBM
 from reactive_realizer.bml.smartbody.attributes import (
     OTHER_POINTS,
@@ -19,6 +18,7 @@ from reactive_realizer.bml.smartbody.attributes import (
     take_time,
     tie,
 )
+from reactive_realizer.bml.smartbody.faults import LeftToPlugins
 from reactive_realizer.bml.smartbody.joints import joint_named, target_named
 from reactive_realizer.bml.trees import Tree
 from reactive_realizer.bml.vocabulary import Mode, Reach

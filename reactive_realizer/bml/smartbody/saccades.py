@@ -7,12 +7,12 @@ import math
 from typing import Final
 
 from reactive_realizer.bml.block_source import BlockSource
-from reactive_realizer.bml.faults import UnknownWord
 from reactive_realizer.bml.glance import FURTHEST
 from reactive_realizer.bml.idle_change import IdleParameter
 from reactive_realizer.bml.names import OWN
 from reactive_realizer.bml.smartbody.attributes import OTHER_POINTS, drop, left_out, take, take_number, tie
 from reactive_realizer.bml.trees import Tree
+from reactive_realizer.bml.value_faults import UnknownWord
 from reactive_realizer.errors import Fault, RealizerError
 
 _LONGEST: Final = 60.0
