@@ -1,6 +1,7 @@
 """The lexicon of body animation: the entries of a character's binding, and the poses of postures."""
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 from lxml import etree
 
@@ -108,6 +109,7 @@ def _entry(spec: UnitSpec, text: str, library: MotionLibrary) -> LexiconEntry:
     )
 
 
+@lru_cache(256)  # the characters of a process have mostly the same bindings
 def _behavior(text: str) -> Behavior:
     """Parse a behavior element.
 
