@@ -9,8 +9,9 @@ as possible.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from types import MappingProxyType
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 from reactive_realizer.embodiment.avatar import Avatar
 from reactive_realizer.embodiment.body import Body, Skeleton
@@ -47,7 +48,7 @@ Clear = Callable[[Body, float], Body]
 
 
 class Clearance:
-    """Keeps the arms of a figure out of its body.
+    """Keeps the arms of a figure out of its body; not for several threads at once.
 
     Args:
         skeleton: of the figure.
@@ -60,10 +61,11 @@ class Clearance:
         self._moving = skeleton.carried(links.shoulder for links in self._arms)
         self._windows: dict[float, tuple[Windows, ...]] = {}
 
-    @classmethod
-    def of(cls, avatar: Avatar) -> Self:
-        """Return the clearance of an avatar."""
-        return cls(avatar.skeleton, girth_of(avatar))
+    @staticmethod
+    @lru_cache(64)
+    def of(avatar: Avatar) -> "Clearance":
+        """Return the clearance of an avatar, which all its figures share."""
+        return Clearance(avatar.skeleton, girth_of(avatar))
 
     def __call__(self, body: Body, away: float = 0.0, shares: Mapping[str, float] = ALL_THE_WAY) -> Body:
         """Return a body with both arms out of its flesh; the same one if they are.
