@@ -159,6 +159,17 @@ class PlanUnit:
     def on_finish(self, time: GlobalTime) -> None:
         """Called when the unit has ended or is interrupted; the engine moves the body back to rest."""
 
+    def finish_planning(self) -> Iterator[int]:
+        """Do what would hold up a tick if its engine did it at once, in steps; its timing may change meanwhile.
+
+        Yields:
+            The work of each step, as the limit `planning_per_tick` counts.
+
+        Raises:
+            RealizerError: the behavior cannot be played after all.
+        """
+        return iter(())
+
     def preference(self, now: GlobalTime) -> Timing:
         """The timing that it prefers if it begins now; a chunk is planned again when it starts (thesis 12.1.4)."""
         return self.timing

@@ -1,6 +1,7 @@
 """Plans accepted blocks: engines prepare and make the units of their behaviors, and the strategy times them."""
 
 import asyncio
+import logging
 from collections.abc import Callable, Collection, Container, Generator, Iterable, Mapping, Sequence
 from functools import partial
 from itertools import count
@@ -11,7 +12,7 @@ from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.asking_client import asked_by
 from reactive_realizer.engine.faults import UnknownParameter
-from reactive_realizer.errors import CreationFault, Fault, SchedulingFault, WarningType
+from reactive_realizer.errors import CreationFault, Fault, RealizerError, SchedulingFault, WarningType
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
@@ -21,6 +22,7 @@ from reactive_realizer.scheduler.block_solver import BlockSolver
 from reactive_realizer.scheduler.blocks import Blocks
 from reactive_realizer.scheduler.bml_block import BMLBlock, Meant
 from reactive_realizer.scheduler.engine_routing import EngineRouting, Result, RoutedBehavior
+from reactive_realizer.scheduler.faults import WorkFailed
 from reactive_realizer.scheduler.lanes import Lane
 from reactive_realizer.scheduler.plan import Plan
 from reactive_realizer.scheduler.planning import Planning
@@ -29,6 +31,8 @@ from reactive_realizer.scheduler.preparation import BackgroundWork, Preparation
 from reactive_realizer.scheduler.problem import Item
 from reactive_realizer.scheduler.procedures import Procedures
 from reactive_realizer.scheduler.solution import Loss, lost_behavior
+
+logger = logging.getLogger(__name__)
 
 _MOST_AT_ONCE, _MOST_POINTS_AT_ONCE = 50, 500
 """Behaviors and sync points of a block that is solved on the event loop; a bigger block is solved in a thread."""
@@ -221,14 +225,18 @@ class BlockPlanner:
                 yield _REFUSAL
                 continue
             made.accompanies = block.gives_way
-            items[made] = item_of(made)
             size += len(made.timing.points) - len(made.unreported)
             if size > self._limits.sync_points_per_block:
-                fault = TooManyPoints(limit=self._limits.sync_points_per_block)
+                too_many = TooManyPoints(limit=self._limits.sync_points_per_block)
                 place = block.description.location
-                loss = Loss(None, fault.located(place.line, place.column), dropped=False, required=True)
+                loss = Loss(None, too_many.located(place.line, place.column), dropped=False, required=True)
                 self._drafts[block].outcome = loss
             yield made.planning_work + len(made.timing.points)
+            fault = yield from _finish(made)
+            if fault is None:
+                items[made] = item_of(made)
+            else:
+                refused.append(lost_behavior(made.behavior, fault))
         yield from self._solve_until_settled(block, items, refused)
 
     def _solve_until_settled(
@@ -296,6 +304,18 @@ class BlockPlanner:
 
     def _left_out(self, block: BMLBlock, routed: RoutedBehavior, fault: Fault) -> None:
         self._feedback.warn_element(block.key, routed.behavior, DescriptionLeftOut(reason=fault.sentence))
+
+
+def _finish(unit: PlanUnit) -> Generator[int, None, Fault | None]:
+    """Finish the planning of a unit; the fault if it cannot be played."""
+    try:
+        yield from unit.finish_planning()
+    except RealizerError as problem:
+        return problem.fault
+    except Exception as failure:
+        logger.exception("the planning of '%s' failed", unit.behavior.id)
+        return WorkFailed(reason=str(failure))
+    return None
 
 
 def unsupported(behavior: Behavior) -> Fault:

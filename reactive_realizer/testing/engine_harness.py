@@ -147,7 +147,10 @@ class EngineHarness:
 
     def plan(self, behavior: Behavior) -> PlanUnit:
         """A unit for a behavior, not yet in the plan of the engine."""
-        return self.engine.plan(BLOCK, behavior, prepared(self.engine, behavior))
+        unit = self.engine.plan(BLOCK, behavior, prepared(self.engine, behavior))
+        for _ in unit.finish_planning():
+            pass
+        return unit
 
     def schedule(self, behavior: Behavior, start: float | None) -> PlanUnit:
         """A unit in the plan of the engine, with its preferred timing from a start on, s; None if that is unknown."""

@@ -1,6 +1,8 @@
 """Planning has a budget for each tick: the rest waits, and no character or client waits for another one."""
 
-from collections.abc import AsyncIterator
+from collections import Counter
+from collections.abc import AsyncIterator, Generator, Iterator
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -8,8 +10,11 @@ import pytest
 
 from reactive_realizer.assembly.scene import SceneOptions
 from reactive_realizer.bml.names import BML, BMLT, OWN
+from reactive_realizer.embodiment.body import Body
+from reactive_realizer.embodiment.clearance import Clearance
 from reactive_realizer.engines.animation.motions import posture
-from reactive_realizer.engines.animation.posture.detour import FoundDetour, find_detour
+from reactive_realizer.engines.animation.motions.posture import PostureUnit
+from reactive_realizer.engines.animation.posture.detour import Detour, find_detour
 from reactive_realizer.realizer.inputs import BmlText, TickInputs
 from reactive_realizer.realizer.session import replay
 from reactive_realizer.scheduler.block_planner import BlockPlanner, Planned
@@ -106,12 +111,47 @@ async def test_the_search_for_the_detours_of_postures_is_work_only_once(pilot: R
     assert pilot.feedback.warnings == []
 
 
+async def test_the_search_for_a_detour_is_spread_over_ticks(
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looks: list[float] = []
+    clear = Clearance.__call__
+
+    def look(self: Clearance, *arguments: Any, **named: Any) -> Body:
+        looks.append(pilot.now)
+        return clear(self, *arguments, **named)
+
+    monkeypatch.setattr(Clearance, "__call__", look)
+    for i, (stance, lexeme) in enumerate(product(("STANDING", "SITTING", "CROUCHING"), ("CROSSED", "AKIMBO"))):
+        poses = f'<stance type="{stance}"/><pose part="ARMS" lexeme="ARMS_{lexeme}"/>'
+        pilot.block(f"b{i}", f'<postureShift id="p" start="{i}">{poses}</postureShift>')
+    await pilot.advance(0.5)
+    assert all(pilot.feedback.reached(f"b{i}:start") for i in range(6))
+    assert len(looks) > 60
+    assert max(Counter(looks).values()) <= 12
+
+
+async def test_a_behavior_whose_planning_fails_later_is_left_out_with_the_reason(
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(unit: PostureUnit) -> Iterator[int]:
+        yield 1
+        raise ArithmeticError("no way")
+
+    monkeypatch.setattr(PostureUnit, "finish_planning", fail)
+    pilot.block("b", f'<postureShift id="p"><stance type="SITTING"/></postureShift>{NOD}')
+    await pilot.advance(3)
+    (warning,) = pilot.feedback.of("warningFeedback")
+    assert warning.text.endswith("its preparation failed: no way")
+    assert pilot.feedback.reached("b:h:end")
+
+
 async def test_no_detour_is_searched_when_postures_start_from_another_base_than_expected(
     pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     searched: list[float] = []
 
-    def find(*arguments: Any) -> FoundDetour:
+    def find(*arguments: Any) -> Generator[int, None, Detour]:
         searched.append(pilot.now)
         return find_detour(*arguments)
 

@@ -1,5 +1,6 @@
 """The lexicon of body animation: the entries of a character's binding, and the poses of postures."""
 
+from collections import deque
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -15,6 +16,7 @@ from reactive_realizer.engine.lexicon import Changeable, LexiconEntry
 from reactive_realizer.engines.animation.animation_unit import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_unit import EXPRESSIVITY_RANGES, GESTURE_POINTS
+from reactive_realizer.engines.animation.motions.posture import PostureMotionUnit
 from reactive_realizer.engines.animation.posture.posture_library import LEXEMES
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.limits import Limits
@@ -93,6 +95,8 @@ def _entry(spec: UnitSpec, text: str, library: MotionLibrary) -> LexiconEntry:
     except RealizerError as problem:
         return LexiconEntry(spec.behavior, lexeme, constraints, file=spec.file, problem=problem.fault.sentence)
     motion = candidate.motion
+    if isinstance(motion, PostureMotionUnit):
+        deque(motion.find_detour(), maxlen=0)
     timing = motion_timing(behavior, motion, keys_of(behavior, motion))
     return LexiconEntry(
         spec.behavior,

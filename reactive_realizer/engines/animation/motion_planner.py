@@ -20,7 +20,12 @@ from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMotionUnit, LocomotionUnit
-from reactive_realizer.engines.animation.motions.posture import posture_after, temporary_bodies
+from reactive_realizer.engines.animation.motions.posture import (
+    PostureMotionUnit,
+    PostureUnit,
+    posture_after,
+    temporary_bodies,
+)
 from reactive_realizer.engines.animation.motions.transition import TransitionMotionUnit, TransitionUnit
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
@@ -188,6 +193,8 @@ class MotionPlanner:
             return TransitionUnit(block, behavior, candidates, self._context, self._predictor.state_after)
         if isinstance(candidates.planned.motion, LocomotionMotionUnit):
             return LocomotionUnit(block, behavior, candidates, self._context)
+        if isinstance(candidates.planned.motion, PostureMotionUnit):
+            return PostureUnit(block, behavior, candidates, self._context)
         unit = AnimationUnit(block, behavior, candidates, self._context)
         previous = self._continued(unit)
         if previous is not None:

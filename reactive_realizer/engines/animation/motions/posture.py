@@ -13,6 +13,7 @@ from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
 from reactive_realizer.embodiment.vector import Vec3, distance, scale
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit, motion_timing
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import WrongElement
 from reactive_realizer.engines.animation.keyframe.clip_files import preload_clip
@@ -49,8 +50,8 @@ _SWING = {
 }
 """Swing of the arms forward and aside meanwhile; otherwise the hands would pass through the rising thighs."""
 
-_LOOK = 45
-"""Work of each pose that is looked at for its detour, as the limit `planning_per_tick` counts."""
+_BODY = 300
+"""Further work of each body in a posture that was not known before: files may have to be read for it."""
 
 _MIDWAY = (0.25, 0.5, 0.75)
 """Shares of the way at which a detour is measured."""
@@ -101,13 +102,30 @@ class PostureMotionUnit(MotionUnit):
         self.key_positions = START_TO_END if shift else _THERE_AND_BACK
         self._ready, self._relax = (self.key_positions.get(sync, 1.0) for sync in ("ready", "relax"))
         rest.check(BodyPosture(stance or rest.expected.stance, self.change[1]))
+        found = rest.found
         self._update_goal(rest.expected)
-        self._find_detour()
+        self.planning_work += _BODY * (rest.found - found)
+        self._take(Detour(self._bends(self._from)).limited(self._from, self.body))
+
+    def find_detour(self) -> Iterator[int]:
+        """Find the way of the arms around the body from the base posture, in steps (`PlanUnit.finish_planning`)."""
+        if self.joints.isdisjoint(_SWING):
+            return
+        begin, goal, remembered = self._from, self.body.posed(self._goal, self._root), self._rest.detours
+        detour = remembered.get((begin, goal))
+        if detour is None:
+            detour = yield from find_detour(begin, goal, self._rest.clear, self._detour)
+            remembered.add((begin, goal), detour, 1)
+        self._take(detour)
+
+    def _take(self, detour: Detour) -> None:
+        """Go to the goal by a detour, in the time that it takes."""
+        self._detour = detour
         # If only the arms move, other postures of the body make no difference.
-        starts = (self._from,) if self._root is None else (self._from, *rest.possible_bodies)
+        starts = (self._from,) if self._root is None else (self._from, *self._rest.possible_bodies)
         self.fade_in = max(map(self._duration_from, starts))
         self.preferred_duration = self.fade_in / self._ready
-        self.shortest = {"end" if shift else "ready": self._shortest()}
+        self.shortest = {"end" if self.persists_as else "ready": self._shortest()}
 
     def _shortest(self) -> float:
         """Return the shortest duration of the change, s."""
@@ -127,16 +145,6 @@ class PostureMotionUnit(MotionUnit):
         self.joints = frozenset(turned)
         self._goal = {joint: self.body.rotation(joint) for joint in turned}
         self._root = None if turned.isdisjoint(PART_JOINTS[PosePart.LEGS]) else self.body.root
-
-    def _find_detour(self) -> None:
-        """Find the way of the arms around the body from the base posture."""
-        bends = self._bends(self._from)
-        if self.joints.isdisjoint(_SWING):
-            self._detour = Detour(bends).limited(self._from, self.body)
-        else:
-            goal = self.body.posed(self._goal, self._root)
-            self._detour, poses = find_detour(self._from, goal, self._rest.clear, tuple(bends.items()))
-            self.origin, self.first_work = (self._from, goal), _LOOK * poses
 
     def _bends(self, begin: Body) -> dict[str, Vec3]:
         """Return how the trunk bows and the arms swing midway from a body, Euler angles, rad."""
@@ -184,6 +192,17 @@ class PostureMotionUnit(MotionUnit):
         """A shift becomes the rest posture."""
         self._rest.adopt(self.posture, self.body)
         return True
+
+
+class PostureUnit(AnimationUnit):
+    """A posture between pegs, whose duration is known once the way of the arms is found."""
+
+    motion: PostureMotionUnit
+
+    def finish_planning(self) -> Iterator[int]:
+        """Find the way of the arms, and take the time that it needs."""
+        yield from self.motion.find_detour()
+        self.loosen(motion_timing(self.behavior, self.motion, self.keys))
 
 
 class PostureMaker:

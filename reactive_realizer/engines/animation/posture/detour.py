@@ -1,8 +1,7 @@
 """The way of the arms around the body when they go from one pose to another."""
 
 import math
-from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Generator, Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -29,7 +28,10 @@ _STEPS = 4
 """Steps of the solution; what it leaves, the figure keeps clear of in each frame."""
 
 _MOST_POSES = 30
-"""Poses that were looked at after which no further step is made: a search holds up a tick. Few need as many."""
+"""Poses that were looked at after which no further step is made. Few searches need as many."""
+
+_LOOK = 70
+"""Work of each pose that is looked at, as the limit `planning_per_tick` counts."""
 
 _ENOUGH = 0.03
 """A smaller turn is left to that, rad."""
@@ -113,67 +115,54 @@ class Detour(NamedTuple):
         return all(same * _product(start, way) > _HALF_A_TURN for way in ways)
 
 
-class FoundDetour(NamedTuple):
-    """The result of a search.
-
-    Attributes:
-        detour: the best one.
-        poses: the number of poses that were looked at.
-    """
-
-    detour: Detour
-    poses: int
-
-
-@lru_cache(64)
-def find_detour(begin: Body, goal: Body, clear: Clear, bends: tuple[tuple[str, Vec3], ...] = ()) -> FoundDetour:
+def find_detour(begin: Body, goal: Body, clear: Clear, first: Detour) -> Generator[int, None, Detour]:
     """Find the detour on which the arms keep clear of the body, as far as one turn of each joint can.
+
+    It takes some milliseconds, so it is done in steps that yield their work, as the limit `planning_per_tick` counts.
 
     Args:
         begin: the body from which they go.
         goal: the body to which they go, by their weight.
         clear: brings the arms of a body out of its flesh.
-        bends: those of the detour.
+        first: the detour that is tried first.
     """
     search = _Search(begin, goal, clear)
-    bent = Detour(dict(bends)).limited(begin, goal)
-    best, left = search(bent)
+    yield 2 * _LOOK
+    best, left = yield from search.best(first)
     if left >= _MUCH:
-        late, still_left = search(bent._replace(early=False))
+        late, still_left = yield from search.best(first._replace(early=False))
         best = late if still_left < left else best
-    return FoundDetour(best, search.poses)
+    return best
 
 
 class _Search:
-    """The search for a detour.
-
-    Attributes:
-        poses: the number of poses that were looked at.
-    """
+    """The search for a detour, in steps."""
 
     def __init__(self, begin: Body, goal: Body, clear: Clear) -> None:
-        self.poses = 0
+        self._poses = 0
         self._begin, self._goal, self._clear = begin, goal, clear
         self._ends = [self._turns(body) for body in (begin, goal)]
 
-    def __call__(self, way: Detour) -> tuple[Detour, float]:
-        """Return the best detour of a kind, and how far the arms still have to turn to be out of flesh, rad."""
+    def best(self, way: Detour) -> Generator[int, None, tuple[Detour, float]]:
+        """Find the best detour of a kind, and how far the arms still have to turn to be out of flesh, rad."""
         best, least = way, (True, math.inf)
         for _ in range(_STEPS + 1):
-            worst, further = self._worst(way, _COARSE)
+            worst, further = yield from self._worst(way, _COARSE)
             if not (rough := bool(worst)):
-                worst, further = self._worst(way, _FINE)
+                worst, further = yield from self._worst(way, _FINE)
             left = rough, max(worst.values(), default=0.0)
             if left < least:
                 best, least = way, left
-            if not worst or self.poses >= _MOST_POSES:
+            if not worst or self._poses >= _MOST_POSES:
                 break
             turns = {joint: add(way.turns.get(joint, ZERO), turn) for joint, turn in further.items()}
             way = way._replace(turns={**way.turns, **turns}).limited(self._begin, self._goal)
         return best, least[1]
 
-    def _worst(self, way: Detour, weights: Sequence[float]) -> tuple[dict[str, float], dict[str, Vec3]]:
-        """Return how far each arm has to turn to be out of flesh where it is deepest, rad, and the turns of a detour.
+    def _worst(
+        self, way: Detour, weights: Sequence[float]
+    ) -> Generator[int, None, tuple[dict[str, float], dict[str, Vec3]]]:
+        """Find how far each arm has to turn to be out of flesh where it is deepest, rad, and the turns of a detour.
 
         What an arm needs at an end of the way, too, is left out.
 
@@ -193,11 +182,12 @@ class _Search:
                     worst[side] = beyond
                     factor = beyond / size / (weight * way.share(weight))
                     further |= {joint: scale(turns[joint], factor) for joint in _TURNED[side]}
+            yield _LOOK
         return worst, further
 
     def _turns(self, body: Body) -> _Turns:
         """Return how the joints of the arms turn to be out of flesh, rad; none if they are."""
-        self.poses += 1
+        self._poses += 1
         out = self._clear(body, _AWAY)
         if out is body:
             return {}

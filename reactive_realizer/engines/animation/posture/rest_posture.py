@@ -8,10 +8,12 @@ from reactive_realizer.bml.behaviors import Pose
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.clearance import Clear
+from reactive_realizer.engines.animation.posture.detour import Detour
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
+from reactive_realizer.sized_cache import SizedCache
 
 _REMEMBERED = 64
-"""Postures whose bodies are remembered: bringing the arms out of flesh takes a millisecond."""
+"""Postures, and ways between them, that are remembered: to find a body or a way takes milliseconds."""
 
 
 class RestPosture:
@@ -21,6 +23,10 @@ class RestPosture:
         posture: by lexemes.
         body: in that posture. Preferred durations follow from it and not from the shown body, so a plan does not depend
             on whether frames are made.
+        clear: brings the arms of a body out of its flesh.
+        found: how many bodies in postures had to be found so far.
+        detours: those that were found between two bodies. Other figures do not share them, so that a replayed session
+            plans in the same ticks.
     """
 
     def __init__(
@@ -42,6 +48,8 @@ class RestPosture:
         self._expected = expected
         self._possible_bodies = possible_bodies
         self.posture = BodyPosture()
+        self.found = 0
+        self.detours = SizedCache[tuple[Body, Body], Detour](_REMEMBERED)
         self._resting = lru_cache(_REMEMBERED)(self._body)
         self.body = self._resting(self.posture)
 
@@ -107,4 +115,5 @@ class RestPosture:
         return self._resting(self._library.possible(posture))
 
     def _body(self, posture: BodyPosture) -> Body:
+        self.found += 1
         return self.clear(self._library.body(posture), 0.0)
