@@ -6,9 +6,10 @@ from statistics import median
 from time import perf_counter_ns
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.block_pegs import BMLBlockPeg
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, OffsetPeg, TimeCell
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, TimeCell
 from reactive_realizer.reactive.cell import Derived, Source
 from reactive_realizer.reactive.graph import Cell, Graph
 

@@ -4,8 +4,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 
 from reactive_realizer.clock.units import Time
+from reactive_realizer.pegboard.block_pegs import LatestPeg
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
-from reactive_realizer.pegboard.time_peg import LatestPeg, Link, TimeCell, TimePeg, kind_of, state_of, time_of
+from reactive_realizer.pegboard.time_peg import Link, TimeCell, TimePeg, kind_of, state_of, time_of
 from reactive_realizer.reactive.graph import Stamp
 
 _DEEPEST = 64

@@ -6,32 +6,24 @@ block is an `OffsetPeg` on the `BMLBlockPeg`: moved with the block, read back as
 
 import weakref
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import ClassVar, NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.pegboard.formulas import (
     Later,
     between,
-    latest,
-    not_after,
     not_after_next,
-    not_before,
     not_before_previous,
     not_earlier,
     shifted_by,
-    unless_late,
-    until,
 )
 from reactive_realizer.reactive.cell import Derived, Source
 from reactive_realizer.reactive.errors import Failure
 from reactive_realizer.reactive.graph import Cell, Graph, Stamp
 
 TimeCell = Cell[Time]
-Bound = tuple[TimeCell, float]
-"""A peg and a distance (s) from it."""
 
-_MOST_NAMES = 5
 _tuple = tuple.__new__
 
 
@@ -189,6 +181,14 @@ class TimePeg(Derived[Time]):
         """The deciding links among those that are no neighbors."""
         return self._split_links[0]
 
+    def _reached(self, distances: Sequence[float]) -> tuple[Link, ...]:
+        """The first link that gives it its time, at a distance (s); of an unknown time those that are unknown."""
+        time, links = time_of(self), self.links[: len(distances)]  # stops decide nothing
+        if time is None:
+            return tuple(link for link in links if link.time is None)
+        pairs = zip(links, distances, strict=True)
+        return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == time)[:1]
+
     @property
     def _split_links(self) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
         """The links without the neighbors, and the neighbors."""
@@ -240,235 +240,6 @@ class RatioPeg(TimePeg):
         return f"{self.ratio:.3g} of the way {before.name} .. {after.name}"
 
 
-class BoundedPeg(TimePeg):
-    """A peg that follows another one, the natural peg, within bounds; each bound is a peg and a distance (s).
-
-    A bound beyond one of the stops has no effect: it can no longer be satisfied.
-    """
-
-    __slots__ = ("bounds", "stops")
-
-    def __init__(
-        self,
-        graph: Graph,
-        name: str,
-        natural: TimeCell,
-        bounds: Sequence[Bound],
-        stops: Sequence[Bound],
-        formula: Callable[[tuple[float, ...], tuple[float, ...]], Callable[..., Time]],
-    ) -> None:
-        self.bounds = tuple(distance for _, distance in bounds)
-        self.stops = tuple(distance for _, distance in stops)
-        cells = (natural, *(cell for cell, _ in (*bounds, *stops)))
-        super().__init__(graph, name, cells, formula(self.bounds, self.stops))
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """``bounds`` and ``stops``, the distance (s) from each peg after the first."""
-        return {"bounds": list(self.bounds), "stops": list(self.stops)}
-
-    def _deciding(self) -> tuple[Link, ...]:
-        """The natural peg, or the bound that overrides it."""
-        return _reached(self, (0.0, *self.bounds))
-
-    def _described(self, links: Sequence[Link], side: str, beyond: str) -> str:
-        natural, *others = links
-        stops = _shifted(others[len(self.bounds) :], self.stops)
-        bounds = _shifted(others[: len(self.bounds)], self.bounds)
-        return f"{natural.name}, not {side} {bounds}" + (f", unless that is {beyond} {stops}" if stops else "")
-
-
-class AfterPeg(BoundedPeg):
-    """A peg that follows another one, but does not come before any of its bounds: a live `after`.
-
-    It is unknown while a bound is. A bound that moves pushes it (thesis 7.4.1), but not past a ceiling.
-    """
-
-    __slots__ = ()
-
-    kind = "after"
-
-    def __init__(
-        self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound], ceilings: Sequence[Bound] = ()
-    ) -> None:
-        super().__init__(graph, name, natural, bounds, ceilings, not_before)
-
-    def _rule(self, links: Sequence[Link]) -> str:
-        """``natural, not before ...``."""
-        return self._described(links, "before", "after")
-
-
-class BeforePeg(BoundedPeg):
-    """A peg that follows another one, but does not come after any of its bounds: a live `before`.
-
-    An unknown bound has no effect, and neither has one before a floor.
-    """
-
-    __slots__ = ()
-
-    kind = "before"
-
-    def __init__(
-        self, graph: Graph, name: str, natural: TimeCell, bounds: Sequence[Bound], floors: Sequence[Bound] = ()
-    ) -> None:
-        super().__init__(graph, name, natural, bounds, floors, not_after)
-
-    def _rule(self, links: Sequence[Link]) -> str:
-        """``natural, not after ...``."""
-        return self._described(links, "after", "before")
-
-
-class LateTiePeg(TimePeg):
-    """A peg that follows a time from outside while a block that waits can meet the ties to it.
-
-    If it comes less than ``least`` (s) after the start of the block, the ties are late: they are met ``earliest`` (s)
-    after the start. Once the block has started, the peg has the time from outside.
-    """
-
-    __slots__ = ("earliest_met", "least")
-
-    kind = "late"
-
-    def __init__(
-        self, graph: Graph, name: str, outside: TimeCell, start: TimeCell, least: float, earliest: float
-    ) -> None:
-        self.least, self.earliest_met = least, earliest
-        super().__init__(graph, name, (outside, start), unless_late(least, earliest))
-
-    def start(self) -> None:
-        """Within a transaction, have the time from outside from now on."""
-        if not self.pinned:
-            self.rebind(self.dependencies[:1], shifted_by(0.0))
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """``least`` and ``earliest``, s after the start of the block."""
-        return {"least": self.least, "earliest": self.earliest_met}
-
-    def _deciding(self) -> tuple[Link, ...]:
-        """The start of the block if the ties are late, otherwise the time from outside."""
-        outside, *start = self.links
-        return (outside,) if outside.time == self.value else tuple(start)
-
-    def _rule(self, links: Sequence[Link]) -> str:
-        """``outside``, and, until the block starts, ``or start + earliest if it is before start + least``."""
-        outside, *others = links
-        if not others:
-            return outside.name
-        (start,) = others
-        return (
-            f"{outside.name}, or {start.name} {self.earliest_met:+g} s if it is before {start.name} {self.least:+g} s"
-        )
-
-
-class LatestPeg(TimePeg):
-    """The latest of several pegs, and not before ``floor``; unknown while one of them is."""
-
-    __slots__ = ("floor",)
-
-    kind = "latest"
-
-    def __init__(self, graph: Graph, name: str, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
-        self.floor = floor
-        super().__init__(graph, name, tuple(links), latest(floor))
-
-    def wait_for(self, floor: GlobalTime, links: Sequence[TimeCell]) -> None:
-        """Within a transaction, depend on other pegs."""
-        self.floor = floor
-        self.rebind(tuple(links), latest(floor))
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """``floor``, s, global."""
-        return {"floor": self.floor}
-
-    def _deciding(self) -> tuple[Link, ...]:
-        """The latest; none if that is the floor."""
-        return _reached(self, (0.0,) * len(self.links))
-
-    def _rule(self, links: Sequence[Link]) -> str:
-        """``latest of ...``, the first few by name."""
-        names = [link.name for link in links]
-        more = [f"{len(names) - _MOST_NAMES} more"] if len(names) > _MOST_NAMES else []
-        return "latest of " + ", ".join([f"{self.floor:g} s", *names[:_MOST_NAMES], *more])
-
-
-class BMLBlockPeg(LatestPeg):
-    """The start of a BML block: predicted from the pegs that the block waits for, pinned when it starts."""
-
-    __slots__ = ()
-
-    kind = "block"
-
-
-class OpenPeg(TimePeg):
-    """The end of a behavior that persists until it is ended: unknown until it is pinned."""
-
-    __slots__ = ()
-
-    kind = "open"
-    what: ClassVar[str] = "the end of the persistent behavior"
-
-    def __init__(self, graph: Graph, name: str) -> None:
-        super().__init__(graph, name, (Source[Time](graph, f"{self.what}, {name}", None),), shifted_by(0.0))
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """None."""
-        return {}
-
-    def _rule(self, links: Sequence[Link]) -> str:
-        """A constant."""
-        return "until it is ended"
-
-
-class WaitPeg(OpenPeg):
-    """The end of a wait for another point: a distance (s) from that point, but not before the wait starts.
-
-    It is not later than the start by more than a limit (s), if there is one. Until `follow` is called, it is unknown.
-    """
-
-    __slots__ = ("_unknown", "limit", "offset")
-
-    kind = "wait"
-    what = "the end of the wait"
-
-    def __init__(self, graph: Graph, name: str, offset: float, limit: float | None) -> None:
-        self.offset = offset
-        self.limit = limit
-        super().__init__(graph, name)
-        (self._unknown,) = self.dependencies
-
-    def follow(self, start: TimeCell, awaited: TimeCell | None) -> None:
-        """Within a transaction, depend on the start of the wait and on the awaited point.
-
-        One that does not exist, or depends on this peg itself, never has a time here.
-        """
-        links = (self._unknown if link is None or link.depends_on(self) else link for link in (start, awaited))
-        self.rebind(tuple(links), until(self.offset, self.limit))
-
-    @property
-    def parameters(self) -> Mapping[str, object]:
-        """``offset`` from the awaited point, s, and ``limit``, s, None for no limit."""
-        return {"offset": self.offset, "limit": self.limit}
-
-    def _deciding(self) -> tuple[Link, ...]:
-        """The awaited point if it gives the time, or else the start; of an unknown time those that are unknown."""
-        links, time = self._split_links[0], time_of(self)
-        if time is None or len(links) < 2:
-            return tuple(link for link in links if link.time is None)
-        start, awaited = links
-        return (awaited,) if awaited.time is not None and awaited.time + self.offset == time else (start,)
-
-    def _rule(self, links: Sequence[Link]) -> str:
-        """``awaited + offset, not before start and not later than start + limit``."""
-        if len(links) < 2:
-            return super()._rule(links)
-        start, awaited = links
-        latest = "" if self.limit is None else f" and not after {start.name} {self.limit:+g} s"
-        return f"{awaited.name} {self.offset:+g} s, not before {start.name}{latest}"
-
-
 class AnticipatorPeg(Source[Time]):
     """A predicted point: absolute, written by its anticipator alone."""
 
@@ -501,16 +272,3 @@ def _link(peg: TimeCell) -> Link:
     if type(time) is Failure:
         time = None
     return _tuple(Link, (peg.name, getattr(peg, "kind", "predicted"), time, peg.stamp, weakref.ref(peg)))
-
-
-def _shifted(links: Iterable[Link], distances: Iterable[float]) -> str:
-    return ", ".join(f"{link.name} {distance:+g} s" for link, distance in zip(links, distances, strict=True))
-
-
-def _reached(peg: TimePeg, distances: Sequence[float]) -> tuple[Link, ...]:
-    """The first link that gives a peg its time at a distance (s) from it; of an unknown time those that are unknown."""
-    time, links = time_of(peg), peg.links[: len(distances)]  # stops decide nothing
-    if time is None:
-        return tuple(link for link in links if link.time is None)
-    pairs = zip(links, distances, strict=True)
-    return tuple(link for link, distance in pairs if link.time is not None and link.time + distance == time)[:1]

@@ -12,8 +12,9 @@ from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time, is_due
 from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.open_pegs import OpenPeg
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
-from reactive_realizer.pegboard.time_peg import OpenPeg, TimePeg
+from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.body_parts import BodyPart, parts_of
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.phase_progress import PhaseProgress

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime
+from reactive_realizer.pegboard.open_pegs import WaitPeg
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.pegboard.time_peg import TimeCell, WaitPeg
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import Phase, Timing
 from reactive_realizer.reactive.graph import Graph

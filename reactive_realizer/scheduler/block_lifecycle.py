@@ -7,9 +7,10 @@ from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped, Reached
 from reactive_realizer.errors import Fault
+from reactive_realizer.pegboard.block_pegs import LateTiePeg
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import LateTiePeg, TimeCell
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback

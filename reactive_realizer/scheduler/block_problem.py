@@ -5,7 +5,8 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
-from reactive_realizer.pegboard.time_peg import Bound, TimeCell
+from reactive_realizer.pegboard.bounded_pegs import Bound
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.planunit.wait_unit import WaitUnit

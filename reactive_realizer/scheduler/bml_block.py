@@ -7,10 +7,11 @@ from typing import NamedTuple
 from reactive_realizer.bml.block import BehaviorBlock
 from reactive_realizer.bml.names import ANTICIPATORS
 from reactive_realizer.clock.units import GlobalTime, Time, has_passed, is_due
+from reactive_realizer.pegboard.block_pegs import BMLBlockPeg, LatestPeg
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import unknown_sources
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BMLBlockPeg, LatestPeg, OffsetPeg, TimeCell
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState, BlockTransition, transition

@@ -14,9 +14,10 @@ from reactive_realizer.bml.reference_faults import LostWith, UnknownReference, U
 from reactive_realizer.bml.references import predictions_of, unknown_behavior, unknown_block, unknown_block_point
 from reactive_realizer.bml.sync_ref import FIRST_STROKE, OWN_BLOCK_POINTS, SyncRef, named_point
 from reactive_realizer.errors import Fault, RealizerError, SchedulingFault
+from reactive_realizer.pegboard.bounded_pegs import Bound
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import Bound, TimeCell
+from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.block_state import BlockState
 from reactive_realizer.scheduler.blocks import Blocks

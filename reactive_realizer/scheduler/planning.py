@@ -8,9 +8,11 @@ from typing import TypeVar
 
 from reactive_realizer.clock.ticker import next_tick
 from reactive_realizer.clock.units import GlobalTime, has_passed, is_due
+from reactive_realizer.pegboard.block_pegs import LateTiePeg
+from reactive_realizer.pegboard.open_pegs import OpenPeg
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import LateTiePeg, OffsetPeg, OpenPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import OffsetPeg, TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.planunit.timing import OPEN
 from reactive_realizer.planunit.wait_unit import WaitUnit

@@ -3,8 +3,9 @@
 from collections.abc import Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.block_pegs import LatestPeg
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import LatestPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.scheduler.bml_block import BMLBlock
 from reactive_realizer.scheduler.problem import Node, Point, Precedence, Tie

@@ -6,10 +6,11 @@ from itertools import chain
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Dropped
 from reactive_realizer.errors import SchedulingFault
+from reactive_realizer.pegboard.open_pegs import OpenPeg
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import followers_of
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import OpenPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.blocks import Blocks

@@ -8,7 +8,7 @@ from importlib.metadata import entry_points
 
 import pytest
 
-from reactive_realizer.pegboard import time_peg
+from reactive_realizer.pegboard import block_pegs, bounded_pegs, open_pegs, time_peg
 from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.testing.pilot import open_pilot
 
@@ -48,7 +48,9 @@ async def test_the_nod_happens_at_the_later_of_the_word_and_the_hit() -> None:
 
 
 def test_the_page_lists_every_kind_of_peg() -> None:
-    classes = [each for each in vars(time_peg).values() if isinstance(each, type) and issubclass(each, TimePeg)]
+    modules = (time_peg, bounded_pegs, block_pegs, open_pegs)
+    names = (each for module in modules for each in vars(module).values())
+    classes = [each for each in names if isinstance(each, type) and issubclass(each, TimePeg)]
     kinds = {each.kind for each in classes if "kind" in vars(each)}
     listed = re.findall(r"^\| `(\w+)` \| ", page(PAGE).partition("## States")[0], re.MULTILINE)
     assert set(listed) == {*kinds, "predicted"}

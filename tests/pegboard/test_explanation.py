@@ -7,19 +7,12 @@ import pytest
 from reactive_realizer.clock.ticker import RATE, Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.pegboard.block_pegs import BMLBlockPeg, LatestPeg
+from reactive_realizer.pegboard.bounded_pegs import AfterPeg, BeforePeg
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import Explanation
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import (
-    AfterPeg,
-    AnticipatorPeg,
-    BeforePeg,
-    BMLBlockPeg,
-    LatestPeg,
-    OffsetPeg,
-    RatioPeg,
-    TimePeg,
-)
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, RatioPeg, TimePeg
 from reactive_realizer.reactive.graph import Graph, Stamp
 
 BLOCK = BlockKey("alice", "b")

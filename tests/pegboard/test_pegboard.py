@@ -10,18 +10,11 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.anticipator import Anticipator, AnticipatorContext, Counted, Predictions, Remote
+from reactive_realizer.pegboard.block_pegs import BMLBlockPeg, LatestPeg
+from reactive_realizer.pegboard.bounded_pegs import AfterPeg
 from reactive_realizer.pegboard.peg_key import BlockKey, PegKey, anticipator_key
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import (
-    AfterPeg,
-    AnticipatorPeg,
-    BMLBlockPeg,
-    LatestPeg,
-    OffsetPeg,
-    RatioPeg,
-    TimeCell,
-    TimePeg,
-)
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
 
 BLOCK = BlockKey("alice", "b")

@@ -3,17 +3,10 @@
 import pytest
 
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.block_pegs import BMLBlockPeg, LatestPeg
+from reactive_realizer.pegboard.bounded_pegs import AfterPeg, BeforePeg
 from reactive_realizer.pegboard.peg_view import followers_of, unknown_sources
-from reactive_realizer.pegboard.time_peg import (
-    AfterPeg,
-    AnticipatorPeg,
-    BeforePeg,
-    BMLBlockPeg,
-    LatestPeg,
-    OffsetPeg,
-    RatioPeg,
-    TimePeg,
-)
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, RatioPeg, TimePeg
 from reactive_realizer.reactive.graph import Graph
 
 

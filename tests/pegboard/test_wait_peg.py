@@ -3,8 +3,9 @@
 import pytest
 
 from reactive_realizer.clock.units import GlobalTime, Time
+from reactive_realizer.pegboard.open_pegs import WaitPeg
 from reactive_realizer.pegboard.peg_view import unknown_sources
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, WaitPeg
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.reactive.graph import Graph
 
 

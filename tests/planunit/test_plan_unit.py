@@ -6,8 +6,9 @@ import pytest
 from reactive_realizer.bml.behaviors import Wait
 from reactive_realizer.bml.names import BML, Location
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.pegboard.bounded_pegs import BeforePeg
 from reactive_realizer.pegboard.peg_key import BlockKey
-from reactive_realizer.pegboard.time_peg import AnticipatorPeg, BeforePeg, OffsetPeg
+from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.planunit.phase_clock import PhaseClock
 from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from reactive_realizer.pegboard.time_peg import AfterPeg, BeforePeg, Bound, OffsetPeg, RatioPeg, TimeCell, TimePeg
+from reactive_realizer.pegboard.bounded_pegs import AfterPeg, BeforePeg, Bound
+from reactive_realizer.pegboard.time_peg import OffsetPeg, RatioPeg, TimeCell, TimePeg
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.peg_layout.network import TOLERANCE
 from reactive_realizer.scheduler.peg_layout.peg_rules import AtPosition, Between, PlannedPeg, Position
