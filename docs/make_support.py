@@ -8,7 +8,7 @@ from reactive_realizer.assembly.scene import Scene, SceneOptions, open_scene
 from reactive_realizer.bml.attribute_types import Enumeration, Float, Integer
 from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description
-from reactive_realizer.bml.behaviors import Mark, Pose, Stance
+from reactive_realizer.bml.behaviors import Pose, Stance
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, UseProc
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS, Element
@@ -20,6 +20,7 @@ from reactive_realizer.bml.murml.description import Slot
 from reactive_realizer.bml.murml.reader import SYMMETRIES
 from reactive_realizer.bml.murml.symbols import SYMBOLS
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, MURML, OWN
+from reactive_realizer.bml.speech import Mark
 from reactive_realizer.engine.lexicon import lexicon_of
 from reactive_realizer.limits import Limits
 from reactive_realizer.scheduler.block_planner import NotSupported

@@ -3,10 +3,11 @@
 from typing import Any
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Gaze, Head, Speech
+from reactive_realizer.bml.behaviors import Gaze, Head
 from reactive_realizer.bml.block import BehaviorBlock, Parsed, Problem
 from reactive_realizer.bml.dialects import Dialect
 from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.sync_ref import SyncRef
 from reactive_realizer.errors import ParsingFault
 from reactive_realizer.limits import Limits

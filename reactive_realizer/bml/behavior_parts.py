@@ -7,12 +7,13 @@ from typing import Any, Final
 
 from reactive_realizer.bml.attributes import attributes_of
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Face, Mark, MarkTime, Pose, Posture, SoundStream, Speech, Stance
+from reactive_realizer.bml.behaviors import Face, Pose, Posture, Stance
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import BehaviorParameter, ParameterValueChange, Trajectory
 from reactive_realizer.bml.faults import DuplicateId, EventTooLong, MissingElement, RepeatedElement
 from reactive_realizer.bml.names import OWN
+from reactive_realizer.bml.speech import Mark, MarkTime, SoundStream, Speech
 from reactive_realizer.bml.speech_faults import UnknownMark, UtteranceTooLong
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, is_core, name_of
 from reactive_realizer.bml.vocabulary import PosePart

@@ -15,7 +15,7 @@ from reactive_realizer.bml.behavior_parts import (
     read_speech,
     read_trajectory,
 )
-from reactive_realizer.bml.behaviors import Face, FaceShift, Posture, PostureShift, Speech
+from reactive_realizer.bml.behaviors import Face, FaceShift, Posture, PostureShift
 from reactive_realizer.bml.block import PROCEDURES
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.elements import ELEMENTS, Element
@@ -25,6 +25,7 @@ from reactive_realizer.bml.key_pose_reader import read_key_poses
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behavior_part import read_murml, wrapped
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.speech_descriptions import read_speech_description, unspoken, unused_times
 from reactive_realizer.bml.trees import (
     PARAMETER,

@@ -20,7 +20,6 @@ from reactive_realizer.bml.behaviors import (
     Pointing,
     Posture,
     PostureShift,
-    Speech,
     Wait,
 )
 from reactive_realizer.bml.extensions import (
@@ -46,6 +45,7 @@ from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, CONTINUOUS, MURML
 from reactive_realizer.bml.release import Release
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.weight_shift import WeightShift
 
 

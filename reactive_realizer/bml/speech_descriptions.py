@@ -7,10 +7,10 @@ from typing import Any, Final
 
 from reactive_realizer.bml.behavior import Description
 from reactive_realizer.bml.behavior_parts import read_recording, read_stream
-from reactive_realizer.bml.behaviors import Mark, RecordedSpeech, Speech, StreamedSpeech
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import MissingElement
 from reactive_realizer.bml.names import OWN
+from reactive_realizer.bml.speech import Mark, RecordedSpeech, Speech, StreamedSpeech
 from reactive_realizer.bml.speech_faults import MissingMarks, OtherMarkup, TimeUnused
 from reactive_realizer.bml.ssml_reader import read_ssml
 from reactive_realizer.bml.trees import Tree, name_of

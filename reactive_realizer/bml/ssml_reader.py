@@ -9,10 +9,10 @@ from typing import Final, NamedTuple
 
 from reactive_realizer.bml.attribute_types import Id
 from reactive_realizer.bml.attributes import Attribute
-from reactive_realizer.bml.behaviors import Mark, Speech
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.faults import DuplicateId, MissingElement
 from reactive_realizer.bml.markup import Markup, MarkupKind
+from reactive_realizer.bml.speech import Mark, Speech
 from reactive_realizer.bml.speech_faults import TooMuchMarkup, TooMuchSilence, UtteranceTooLong
 from reactive_realizer.bml.ssml_elements import ATTRIBUTES, break_of, is_ssml, properties_of
 from reactive_realizer.bml.trees import Tree, name_of

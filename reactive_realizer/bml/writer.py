@@ -8,11 +8,12 @@ from lxml import etree
 
 from reactive_realizer.bml.attributes import Attribute, attributes_of
 from reactive_realizer.bml.behavior import Behavior, Description
-from reactive_realizer.bml.behaviors import Face, Posture, Speech, Wait
+from reactive_realizer.bml.behaviors import Face, Posture, Wait
 from reactive_realizer.bml.extensions import BehaviorParameter, FaceKeyframe, Keyframe, ParameterValueChange
 from reactive_realizer.bml.key_poses import KeyPose, KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.names import BMLT
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.trees import PARAMETER, Tree
 
 _DIGITS: Final = 15

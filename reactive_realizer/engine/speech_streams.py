@@ -6,7 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any, Final
 
-from reactive_realizer.bml.behaviors import SoundStream
+from reactive_realizer.bml.speech import SoundStream
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.embodiment.audio import StreamedAudio
 from reactive_realizer.errors import CreationFault, Fault, RealizerError

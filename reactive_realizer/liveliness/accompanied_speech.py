@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import Final
 
-from reactive_realizer.bml.behaviors import LIVELINESS, Speech
+from reactive_realizer.bml.speech import LIVELINESS, Speech
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.sound_unit import Speaking
 from reactive_realizer.engine.tts import Utterance

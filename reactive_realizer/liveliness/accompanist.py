@@ -3,8 +3,8 @@
 import logging
 from collections.abc import Sequence
 
-from reactive_realizer.bml.behaviors import LIVELINESS
 from reactive_realizer.bml.document import parse
+from reactive_realizer.bml.speech import LIVELINESS
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.effects import Reached
 from reactive_realizer.engine.sound_unit import Speaking

@@ -11,13 +11,13 @@ from random import Random
 from typing import Final, NamedTuple
 from xml.sax.saxutils import escape, quoteattr
 
-from reactive_realizer.bml.behaviors import VOICE, Speech
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML, BMLT
+from reactive_realizer.bml.speech import VOICE, Speech
 from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.clock.units import GlobalTime, is_due
 from reactive_realizer.engine.effects import Reached
-from reactive_realizer.engines.speech.speech_unit import holds_floor
+from reactive_realizer.engines.speech.speech_options import holds_floor
 from reactive_realizer.limits import Limits
 from reactive_realizer.liveliness.fillers import Fillers
 from reactive_realizer.liveliness.listeners import Listeners

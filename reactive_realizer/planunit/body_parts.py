@@ -17,13 +17,12 @@ from reactive_realizer.bml.behaviors import (
     Pointing,
     Posture,
     PostureShift,
-    RecordedSpeech,
-    Speech,
 )
 from reactive_realizer.bml.extensions import FACES, MOTIONS
 from reactive_realizer.bml.glance import Glance
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
+from reactive_realizer.bml.speech import RecordedSpeech, Speech
 from reactive_realizer.bml.vocabulary import BodyGroup, PosePart
 from reactive_realizer.bml.weight_shift import WeightShift
 

@@ -9,10 +9,10 @@ from dataclasses import replace
 from types import MappingProxyType, TracebackType
 from typing import Self
 
-from reactive_realizer.bml.behaviors import streams_of
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.dialects import ONLY_BML, Dialects
 from reactive_realizer.bml.names import EVENTS
+from reactive_realizer.bml.speech import streams_of
 from reactive_realizer.clock.ticker import Tick, first_tick
 from reactive_realizer.clock.units import GlobalTime, Time, is_due
 from reactive_realizer.embodiment.audio import AudioChange, AudioHeard, StreamedAudio

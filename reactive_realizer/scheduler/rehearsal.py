@@ -7,8 +7,8 @@ from contextlib import AbstractAsyncContextManager
 from dataclasses import dataclass
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import StreamedSpeech
 from reactive_realizer.bml.block import BehaviorBlock, DefineProc, Problem
+from reactive_realizer.bml.speech import StreamedSpeech
 from reactive_realizer.engine.engine import Engine
 from reactive_realizer.errors import Fault, RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey

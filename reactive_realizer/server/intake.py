@@ -8,10 +8,10 @@ from itertools import islice
 from typing import Any, NamedTuple, TypeVar
 from xml.sax.saxutils import quoteattr
 
-from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.value_faults import AbsurdTime
 from reactive_realizer.clock.ticker import tick_time
 from reactive_realizer.clock.units import GlobalTime

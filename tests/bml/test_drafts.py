@@ -18,8 +18,6 @@ from reactive_realizer.bml.behaviors import (
     Pose,
     Posture,
     PostureShift,
-    RecordedSpeech,
-    Speech,
     Wait,
 )
 from reactive_realizer.bml.block import BehaviorBlock, Order, Parsed, Synchronize
@@ -28,6 +26,7 @@ from reactive_realizer.bml.extensions import Emit
 from reactive_realizer.bml.markup import MarkupKind
 from reactive_realizer.bml.names import BML, BMLT, Location
 from reactive_realizer.bml.references import check_references
+from reactive_realizer.bml.speech import RecordedSpeech, Speech
 from reactive_realizer.bml.vocabulary import Composition, Influence, Mode, PosePart, Side, StanceType
 from reactive_realizer.limits import Limits
 

@@ -16,12 +16,10 @@ from reactive_realizer.bml.behaviors import (
     Head,
     HeadDirectionShift,
     Locomotion,
-    Mark,
     Pointing,
     Pose,
     Posture,
     PostureShift,
-    Speech,
     Wait,
 )
 from reactive_realizer.bml.block import BehaviorBlock
@@ -50,6 +48,7 @@ from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlFace, MurmlGesture
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, MURML, OWN, Location
 from reactive_realizer.bml.release import Release
+from reactive_realizer.bml.speech import Mark, Speech
 from reactive_realizer.bml.vocabulary import (
     BodyGroup,
     Influence,

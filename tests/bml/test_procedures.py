@@ -2,11 +2,12 @@
 
 import pytest
 
-from reactive_realizer.bml.behaviors import Gaze, Speech
+from reactive_realizer.bml.behaviors import Gaze
 from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.names import BML, BMLA, BMLT, Location
 from reactive_realizer.bml.references import check_references
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.vocabulary import Composition
 from reactive_realizer.limits import Limits
 

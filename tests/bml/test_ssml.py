@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.bml.block import Problem
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.markup import MarkupKind
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.limits import Limits
 
 NAMESPACE = "http://www.w3.org/2001/10/synthesis"

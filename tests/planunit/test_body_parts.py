@@ -3,13 +3,14 @@
 import pytest
 
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import Posture, PostureShift, RecordedSpeech, Wait
+from reactive_realizer.bml.behaviors import Posture, PostureShift, Wait
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.extensions import FACES, Activate, AudioFile, Emit, Interrupt, ParameterValueChange
 from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.names import OWN, Location
 from reactive_realizer.bml.release import Release
+from reactive_realizer.bml.speech import RecordedSpeech
 from reactive_realizer.bml.vocabulary import BodyGroup
 from reactive_realizer.planunit.body_parts import BodyPart, parts_of
 

@@ -5,16 +5,7 @@ from types import MappingProxyType
 
 from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import (
-    FILLER,
-    LIVELINESS,
-    RIGID,
-    VOICE,
-    WORDS,
-    RecordedSpeech,
-    Speech,
-    StreamedSpeech,
-)
+from reactive_realizer.bml.speech import FILLER, LIVELINESS, RIGID, VOICE, WORDS, RecordedSpeech, Speech, StreamedSpeech
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.context import EngineContext
@@ -26,14 +17,14 @@ from reactive_realizer.engine.tts import PITCH_RANGE, RATE_RANGE, Utterance
 from reactive_realizer.engines.speech.elastic_speech import ElasticSpeech
 from reactive_realizer.engines.speech.lip_sync.track import LipSyncTrack
 from reactive_realizer.engines.speech.recorded.recordings import Recording, Recordings
-from reactive_realizer.engines.speech.speech_unit import (
+from reactive_realizer.engines.speech.speech_options import (
     LIVELINESS_RANGE,
-    SpeechUnit,
     holds_floor,
     is_rigid,
     liveliness_of,
     wants_words,
 )
+from reactive_realizer.engines.speech.speech_unit import SpeechUnit
 from reactive_realizer.engines.speech.streamed.streamed_speech import spoken_stream
 from reactive_realizer.engines.speech.synthesis import Synthesis, check_words
 from reactive_realizer.errors import CreationFault, Fault

@@ -3,29 +3,25 @@
 from collections.abc import Container, Iterable, Iterator, Mapping
 from itertools import accumulate, pairwise
 
-from reactive_realizer.binding.asset_file import parse_boolean
-from reactive_realizer.bml.attribute_types import Float
-from reactive_realizer.bml.behavior import Behavior
-from reactive_realizer.bml.behaviors import FILLER, LIVELINESS, RIGID, WORDS, Speech
+from reactive_realizer.bml.speech import LIVELINESS, Speech
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.audio import Caption
 from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engine.sound_unit import SoundUnit
 from reactive_realizer.engine.tts import PITCH_RANGE, RATE_RANGE, Utterance
+from reactive_realizer.engines.speech.speech_options import LIVELINESS_RANGE, is_rigid, liveliness_of, wants_words
 from reactive_realizer.engines.speech.spoken_utterance import SpokenUtterance
 from reactive_realizer.engines.speech.stretched_utterance import StretchedUtterance, border_after, stretch_limits
-from reactive_realizer.errors import CreationFault, Fault, RealizerError
-from reactive_realizer.limits import Limits
+from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import TimePeg
-from reactive_realizer.planunit.parameter import Parameter, Range
+from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.plan_unit import DuePoint, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.reactive.graph import Graph
 
 VOICE = "voice"
-LIVELINESS_RANGE = Range(0.0, 1.0)
 
 _LEAD = 0.05
 """The shortest time from the arrival of a part to its sound, s, in which the lips can get to its first viseme."""
@@ -35,16 +31,6 @@ _SLACK = 0.01
 """How far the points of a stretched speech may be from its course, s."""
 _LONGEST_PAUSE = 1.0
 """How much longer each pause of a stretched speech may become, s."""
-
-
-class BadLiveliness(CreationFault):
-    """A liveliness of a speech that is not a number from 0 to 1."""
-
-    code = "bad-liveliness"
-    template = "its liveliness must be a number from {low:g} to {high:g}, not '{value}'"
-    value: str
-    low: float
-    high: float
 
 
 class SpeechUnit(SoundUnit):
@@ -360,48 +346,6 @@ class SpeechUnit(SoundUnit):
 def _is_off(planned: Time, heard: GlobalTime, now: GlobalTime, slack: float) -> bool:
     """Whether a point is to come when it is heard, instead of when it is planned; ``slack`` in s."""
     return heard < now + _AHEAD if planned is None else abs(planned - heard) > slack
-
-
-def wants_words(behavior: Behavior) -> bool:
-    """Whether the words of a speech are sync points.
-
-    Raises:
-        RealizerError: "not-a-flag".
-    """
-    return parse_boolean(WORDS[1], behavior.extensions.get(WORDS, "false"))
-
-
-def holds_floor(behavior: Behavior) -> bool:
-    """Whether the character says fillers after a speech, until its next words arrive.
-
-    Raises:
-        RealizerError: "not-a-flag".
-    """
-    return parse_boolean(FILLER[1], behavior.extensions.get(FILLER, "false"))
-
-
-def is_rigid(behavior: Behavior) -> bool:
-    """Whether a speech is never stretched.
-
-    Raises:
-        RealizerError: "not-a-flag".
-    """
-    return parse_boolean(RIGID[1], behavior.extensions.get(RIGID, "false"))
-
-
-def liveliness_of(behavior: Behavior, default: float | None) -> float | None:
-    """How lively a speech is to be, 0 to 1: as it says itself, or else a default.
-
-    Raises:
-        RealizerError: "bad-liveliness".
-    """
-    if (text := behavior.extensions.get(LIVELINESS)) is None:
-        return default
-    low, high = LIVELINESS_RANGE
-    try:
-        return Float(low, high).read(text, Limits())
-    except RealizerError as problem:
-        raise RealizerError(BadLiveliness(value=text, low=low, high=high)) from problem
 
 
 def _word_points(behavior: Speech, utterance: Utterance) -> dict[str, int]:

@@ -3,8 +3,8 @@
 from collections.abc import AsyncGenerator, AsyncIterator
 from typing import Final, NamedTuple
 
-from reactive_realizer.bml.behaviors import VOICE, Speech
 from reactive_realizer.bml.markup import Markup
+from reactive_realizer.bml.speech import VOICE, Speech
 from reactive_realizer.engine.engine import Part
 from reactive_realizer.engine.tts import MarkupTTSBinding, TTSBinding, Utterance
 from reactive_realizer.errors import CreationFault, RealizerError

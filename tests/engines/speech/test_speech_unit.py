@@ -2,8 +2,8 @@
 
 import pytest
 
-from reactive_realizer.bml.behaviors import Speech
 from reactive_realizer.bml.names import BML, Location
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.engine.tts import Utterance, Word

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reactive_realizer.binding.faults import NoAsset
-from reactive_realizer.bml.behaviors import RecordedSpeech
+from reactive_realizer.bml.speech import RecordedSpeech
 from reactive_realizer.embodiment.sound_files import read_samples
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
 from reactive_realizer.engines.speech.recorded.aligner import aligned

@@ -5,7 +5,7 @@ from collections.abc import AsyncGenerator, Awaitable, Iterator, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
-from reactive_realizer.bml.behaviors import StreamedSpeech
+from reactive_realizer.bml.speech import StreamedSpeech
 from reactive_realizer.engine.engine import Part
 from reactive_realizer.engine.speech_streams import SoundPiece, SpeechStream
 from reactive_realizer.engine.tts import Phoneme, Utterance, Word, word_spans
