@@ -21,7 +21,8 @@ from reactive_realizer.engine.effects import (
 )
 from reactive_realizer.engine.hearing import Drift
 from reactive_realizer.errors import Fault
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 
 T = TypeVar("T")
 

@@ -13,7 +13,8 @@ from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
 from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Parameter
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.reactive.graph import Cell
 
 

@@ -1,12 +1,8 @@
 """A behavior in a plan: its sync points on pegs, and its progress."""
 
-import itertools
 import logging
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from enum import Enum
-from math import inf
-from typing import NamedTuple
 
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.vocabulary import InterruptSpeech
@@ -18,6 +14,8 @@ from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.body_parts import BodyPart, parts_of
 from reactive_realizer.planunit.parameter import Parameter
 from reactive_realizer.planunit.phase_progress import PhaseProgress
+from reactive_realizer.planunit.point_order import keep_order, needs_after, overtaken
+from reactive_realizer.planunit.sync_point import DuePoint, Hurry, SyncPoint
 from reactive_realizer.planunit.timing import OPEN, SHORTEST, Overtaken, Timing, TooShort
 
 logger = logging.getLogger(__name__)
@@ -36,64 +34,6 @@ class UnitState(Enum):
     IN_EXEC = "in_exec"
     DONE = "done"
     DROPPED = "dropped"
-
-
-@dataclass(slots=True)
-class SyncPoint:
-    """A sync point of one unit.
-
-    Attributes:
-        id: the sync id.
-        peg: its time; shared with the sync points it is tied to.
-        tied: whether a BML constraint names it; otherwise its time follows from the preferences of its behavior.
-        fired: whether it has been reported; its peg is pinned then.
-        cut: whether it was reported because its behavior was cut short.
-        details: attributes of its feedback, beside the time; noted when it fires.
-    """
-
-    id: str
-    peg: TimePeg
-    tied: bool = False
-    fired: bool = False
-    cut: bool = False
-    details: Mapping[str, str] = field(default_factory=dict)
-
-
-class Hurry(NamedTuple):
-    """A point that was asked for earlier than its unit can reach it.
-
-    Attributes:
-        need: time that the unit needed from then on, s.
-        room: time that it was given, s.
-    """
-
-    need: float
-    room: float
-
-
-class _Later(NamedTuple):
-    """A later point, as earlier ones see it: they come no later than at a distance (s) from it."""
-
-    latest: GlobalTime
-    point: SyncPoint
-    distance: float
-
-    def ahead(self, need: float) -> "_Later":
-        """The same point, as seen from before a phase that needs some time (s); a pinned one cannot wait for that."""
-        if self.point.peg.pinned:
-            return self
-        return _Later(GlobalTime(self.latest - need), self.point, self.distance - need) if need else self
-
-    def yields_to(self, peg: TimePeg) -> bool:
-        """Whether it can wait for a peg: it moves with that, and no constraint names it."""
-        return not self.point.tied and self.point.peg.depends_on(peg)
-
-
-class DuePoint(NamedTuple):
-    """A sync point that is about to fire, and the time (s, global) to report."""
-
-    point: SyncPoint
-    time: GlobalTime
 
 
 def sleep() -> None:
@@ -346,15 +286,6 @@ class PlanUnit:
             return [point.peg for point in self.points[:1]]
         return [point.peg for point in self.points if not point.fired]
 
-    def overtaken(self) -> tuple[tuple[str, GlobalTime], tuple[str, GlobalTime]] | None:
-        """Two points, with their times, that are out of order (thesis 7.15), if there are any; tied ones first."""
-        known = [(point, time) for point in self.points if (time := point.peg.value) is not None]
-        for points in ([each for each in known if each[0].tied], known):
-            for (earlier, time), (later, late) in itertools.pairwise(points):
-                if time > late + RESOLUTION:
-                    return (earlier.id, time), (later.id, late)
-        return None
-
     def refusal(self) -> Fault | None:
         """The fault that keeps it from beginning with the present times of its points (thesis 7.14, 7.15), if any.
 
@@ -362,7 +293,7 @@ class PlanUnit:
         """
         times = [point.peg.value for point in self.points]
         known = [time for time in times if time is not None]
-        if known != sorted(known) and (lost := self.overtaken()) is not None:
+        if known != sorted(known) and (lost := overtaken(self.points)) is not None:
             (sync, time), (later, late) = lost
             return Overtaken(sync=sync, time=time, later=later, late=late)
         start, end = times[0], times[-1]
@@ -389,7 +320,7 @@ class PlanUnit:
         start, ahead = self.points[0].peg.value, self.ahead()
         if not any(self.shortest) or len(self.points) <= len(self.shortest) or not ahead or not is_due(start, now):
             return
-        time, first, needs = now, len(self.points) - len(ahead), self._needs()
+        time, first, needs = now, len(self.points) - len(ahead), needs_after(self.points, self.shortest)
         if first > 0 and self.progress(now) >= 1.0 and (began := self.points[first - 1].peg.value) is not None:
             yield ahead[0], min(now, GlobalTime(began + needs[first - 1]))
         for index, point in enumerate(ahead, first):
@@ -412,53 +343,10 @@ class PlanUnit:
     def keep_order(self, part: Callable[[SyncPoint], None] = lambda point: None) -> bool:
         """Within a transaction, keep each point that has not fired in time for later ones; whether any was not.
 
-        A point that a later one overtook, or left less time than the body needs, moves with that, for as long as it is
-        so early. But later points that only follow it, because no constraint names them, wait for it.
-
         Args:
             part: called with each point before its peg is changed.
         """
-        moved, needs = False, self._needs()
-        later: list[_Later] = []
-        soonest = inf  # of all of these: a speech may have hundreds of points
-        for index in range(len(self.points) - 1, -1, -1):
-            point, need = self.points[index], needs[index]
-            if point.fired:
-                break
-            if need > 0.0:
-                later = [each.ahead(need) for each in later]
-                soonest = min((each.latest for each in later), default=inf)
-            time = point.peg.value
-            if time is None:
-                continue
-            if time > soonest + RESOLUTION:
-                overtaking = [each for each in later if time > each.latest + RESOLUTION]
-                firm = [each for each in overtaking if not each.yields_to(point.peg)]
-                if not firm:
-                    for each in {each.point.peg: each for each in overtaking}.values():
-                        part(each.point)
-                        each.point.peg.keep_behind(point.peg, -each.distance)
-                    return True
-                # Points between the two may depend on both; only one that does not depend on this one can hold it.
-                independent = [each for each in firm if not each.point.peg.depends_on(point.peg)]
-                successor = min(independent or firm, key=lambda each: each.latest)
-                part(point)
-                point.peg.keep_before(successor.point.peg, successor.distance)
-                time, moved = successor.latest, True
-            later.append(_Later(time, point, 0.0))
-            soonest = min(soonest, time)
-        return moved
-
-    def _needs(self) -> list[float]:
-        """The shortest duration (s) of the phase after each point; no time can pass between points that share a peg."""
-        needs, together = [0.0] * len(self.points), 0
-        if not any(self.shortest):
-            return needs
-        last = {point.peg: index for index, point in enumerate(self.points)}
-        for index, (point, shortest) in enumerate(zip(self.points, self.shortest, strict=False)):
-            together = max(together, last[point.peg])
-            needs[index] = 0.0 if index < together else shortest
-        return needs
+        return keep_order(self.points, needs_after(self.points, self.shortest), part)
 
     def due_points(self, now: GlobalTime, *, end: bool = True) -> list[DuePoint]:
         """The points that are due, and unknown points before them, which have the time of the next known point."""
@@ -485,7 +373,7 @@ class PlanUnit:
         self._progress = None
         if any(self.shortest) and (ahead := self.ahead()):
             late = now - due[-1].time > LATE
-            since, need = now if late else due[-1].time, self._needs()[-len(ahead) - 1]
+            since, need = now if late else due[-1].time, needs_after(self.points, self.shortest)[-len(ahead) - 1]
             self._progress = PhaseProgress(since, ahead[0].peg.value, need)
 
     def interrupt(self, time: GlobalTime) -> list[SyncPoint]:

@@ -12,7 +12,8 @@ from reactive_realizer.pegboard.peg_key import BlockKey, PegKey
 from reactive_realizer.pegboard.peg_view import unknown_sources
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg, TimeCell
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.wait_unit import WaitUnit
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState, BlockTransition, transition
 from reactive_realizer.scheduler.lanes import ACCOMPANIST, Lane

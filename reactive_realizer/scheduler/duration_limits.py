@@ -3,7 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 from reactive_realizer.errors import SchedulingFault
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.scheduler.problem import Item, SchedulingProblem
 from reactive_realizer.scheduler.solution import Loss, Solution

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping
 
 from reactive_realizer.pegboard.peg_key import PegKey
 from reactive_realizer.pegboard.time_peg import TimeCell, TimePeg
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.scheduler.block_problem import BlockProblem
 from reactive_realizer.scheduler.duration_limits import limits_not_kept
 from reactive_realizer.scheduler.late_ties import tie_bounds

@@ -14,7 +14,8 @@ from reactive_realizer.engine.faults import UnitFailed
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
 from reactive_realizer.pegboard.time_peg import OffsetPeg, TimePeg
-from reactive_realizer.planunit.plan_unit import DuePoint, Hurry, PlanUnit, SyncPoint, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.planunit.sync_point import DuePoint, Hurry, SyncPoint
 from reactive_realizer.planunit.timing import SHORTEST, Timing
 from reactive_realizer.reactive.graph import Cell
 from reactive_realizer.scheduler.block_feedback import BlockFeedback

@@ -17,7 +17,8 @@ from reactive_realizer.engine.engine_task import EngineTasks
 from reactive_realizer.engine.guarded_engine import GuardedEngine
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import timing_at
 from reactive_realizer.reactive.graph import Graph
 

@@ -12,7 +12,8 @@ from reactive_realizer.engine.effects import EndUnit
 from reactive_realizer.engine.player import Player
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import timing_at
 from reactive_realizer.reactive.graph import Graph
 

@@ -13,7 +13,7 @@ from reactive_realizer.engine.sound_announcer import SoundAnnouncer
 from reactive_realizer.engine.sound_unit import SoundPart, SoundUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
-from reactive_realizer.planunit.plan_unit import SyncPoint
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
 from reactive_realizer.reactive.graph import Graph
 

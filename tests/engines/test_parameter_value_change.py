@@ -17,7 +17,8 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.planunit.parameter import Parameter, Range
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import timing_at
 from reactive_realizer.reactive.cell import Source
 from reactive_realizer.reactive.graph import Graph

@@ -10,7 +10,9 @@ from reactive_realizer.pegboard.bounded_pegs import BeforePeg
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
 from reactive_realizer.planunit.phase_clock import PhaseClock
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.planunit.point_order import overtaken
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.reactive.graph import Graph
 
@@ -159,8 +161,8 @@ def test_a_unit_is_dropped_even_if_on_finish_raises() -> None:
 
 
 def test_order_is_checked_among_known_times() -> None:
-    assert Told(start=0.0, stroke=None, end=1.0).overtaken() is None
-    assert Told(start=2.0, stroke=None, end=1.0).overtaken() == (("start", 2.0), ("end", 1.0))
+    assert overtaken(Told(start=0.0, stroke=None, end=1.0).points) is None
+    assert overtaken(Told(start=2.0, stroke=None, end=1.0).points) == (("start", 2.0), ("end", 1.0))
 
 
 def test_an_unknown_point_of_a_unit_is_a_key_error() -> None:

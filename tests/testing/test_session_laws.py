@@ -21,7 +21,8 @@ from reactive_realizer.feedback.messages import (
 from reactive_realizer.limits import Limits
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
-from reactive_realizer.planunit.plan_unit import PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import PlanUnit
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import PhaseKind, timing_at
 from reactive_realizer.reactive.graph import Graph
 from reactive_realizer.scheduler.bml_block import BMLBlock

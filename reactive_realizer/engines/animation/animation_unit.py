@@ -32,7 +32,8 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, ParameterValues
 from reactive_realizer.planunit.phase_clock import PhaseClock
-from reactive_realizer.planunit.plan_unit import LATE, DuePoint, PlanUnit, SyncPoint
+from reactive_realizer.planunit.plan_unit import LATE, PlanUnit
+from reactive_realizer.planunit.sync_point import DuePoint, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 from reactive_realizer.reactive.graph import Graph
 

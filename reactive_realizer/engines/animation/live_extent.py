@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.engines.animation.motion_unit import GESTURE_POINTS, MotionUnit
-from reactive_realizer.planunit.plan_unit import SyncPoint
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.reactive.graph import Cell
 
 TEMPORAL_EXTENT = "temporalExtent"

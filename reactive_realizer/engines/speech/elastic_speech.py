@@ -9,7 +9,7 @@ from reactive_realizer.embodiment.audio import Caption
 from reactive_realizer.engines.speech.course import Course
 from reactive_realizer.engines.speech.speech_unit import SpeechUnit
 from reactive_realizer.pegboard.time_peg import TimePeg
-from reactive_realizer.planunit.plan_unit import SyncPoint
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
 
 

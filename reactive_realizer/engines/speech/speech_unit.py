@@ -17,7 +17,7 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import TimePeg
 from reactive_realizer.planunit.parameter import Parameter
-from reactive_realizer.planunit.plan_unit import DuePoint, SyncPoint
+from reactive_realizer.planunit.sync_point import DuePoint, SyncPoint
 from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing, timing_at
 from reactive_realizer.reactive.graph import Graph
 

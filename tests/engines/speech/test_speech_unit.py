@@ -10,7 +10,7 @@ from reactive_realizer.engine.tts import Utterance, Word
 from reactive_realizer.engines.speech.speech_unit import SpeechUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.time_peg import AnticipatorPeg, OffsetPeg
-from reactive_realizer.planunit.plan_unit import SyncPoint
+from reactive_realizer.planunit.sync_point import SyncPoint
 from reactive_realizer.reactive.graph import Graph
 
 UTTERANCE = Utterance("a b", 1.0, (Word("a", 0.0, 0, 1), Word("b", 0.5, 2, 3)), {})
