@@ -2,18 +2,14 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from itertools import pairwise, zip_longest
 from math import inf
-from typing import NamedTuple
 
-from reactive_realizer.bml.behavior import Behavior, SyncPoints
+from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.behaviors import Pointing
 from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
-from reactive_realizer.embodiment.quaternion import angle, difference
 from reactive_realizer.engine.effects import MovePoints
 from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.candidates import Candidate, Candidates, select
@@ -21,39 +17,21 @@ from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.fade_out import LOWEST
 from reactive_realizer.engines.animation.kinematics import KinematicState
 from reactive_realizer.engines.animation.live_extent import TEMPORAL_EXTENT, LiveExtent
+from reactive_realizer.engines.animation.motion_timing import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_unit import (
     Moment,
-    MotionUnit,
     PhaseDuration,
     layer_of,
-    with_gesture_points,
 )
+from reactive_realizer.engines.animation.parameter_jumps import ParameterJumps
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Parameter, ParameterValues
 from reactive_realizer.planunit.phase_clock import PhaseClock
 from reactive_realizer.planunit.plan_unit import LATE, PlanUnit
 from reactive_realizer.planunit.sync_point import DuePoint, SyncPoint
-from reactive_realizer.planunit.timing import Phase, PhaseKind, Timing
+from reactive_realizer.planunit.timing import Timing
 from reactive_realizer.reactive.graph import Graph
-
-PhaseEnds = tuple[str, str]
-"""The sync points at the ends of a phase."""
-
-_NO_HOLDS: frozenset[PhaseEnds] = frozenset()
-
-_MUCH_MORE = 2.0
-"""Factor between the changes of a parameter in two frames from which on it may have jumped."""
-
-_MOST_TIMINGS = 1000
-"""Number of cached timings: most motions are planned repeatedly."""
-
-_HOLDS = frozenset({("ready", "strokeStart"), ("strokeEnd", "relax")})
-"""The hands hold before and after a stroke."""
-
-_STAYS = frozenset({("strokeStart", "stroke"), ("stroke", "strokeEnd")})
-"""The stroke of a pointing gesture is a hold."""
-
 
 CHANGE = 0.3
 """Time in which joints go over to a motion with other parameters, s: about as long as a movement takes."""
@@ -67,10 +45,6 @@ _RECENT = 0.07
 
 _HALFWAY = 0.5
 """Share of the pose of a gesture that an arm keeps which waits for the next one (ours)."""
-
-
-_FOLLOWED = 0.012
-"""Difference between the turns of a joint in two frames up to which a change of parameters is followed, rad."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,10 +129,6 @@ class AnimationUnit(PlanUnit):
         self.group = candidate.group or motion.group
         self.yields = candidate.yields
         self.shown = Layer(motion.kind, {}, 0.0)
-        self._played: tuple[float, ...] = ()
-        self._changes: tuple[float, ...] = ()
-        # What it showed before that.
-        self._former = self.shown
         self.shown_at = GlobalTime(-inf)
         # When it was shown before that, with its weight then.
         self._before = self.shown_at, 0.0
@@ -168,7 +138,7 @@ class AnimationUnit(PlanUnit):
         cells = {own: self.parameters[name].cell for name, own in candidate.names.items() if name in self.parameters}
         self._extent = LiveExtent(motion, cells.get(TEMPORAL_EXTENT))
         motion.parameters = ParameterValues(motion.parameters, cells)
-        self._cells = tuple(cells.values())
+        self._jumps = ParameterJumps(tuple(cells.values()), self.shown)
 
     def _stands_in(self, candidate: Candidate) -> bool:
         """Return whether a candidate has the points and the parameters of the planned one."""
@@ -271,7 +241,7 @@ class AnimationUnit(PlanUnit):
         self._set_shortest(time)
         added = motion.kind is LayerKind.ADDITIVE
         motion.start(self._context.body() if added else self._context.state_at(time).body)
-        self._played = self._values()
+        self._jumps.start()
         if motion.joined is not None or not added:
             self._context.switch(motion.joints, self._arrival(motion.joined or time, motion.entrance))
 
@@ -317,26 +287,14 @@ class AnimationUnit(PlanUnit):
         context, motion, before = self._context, self.motion, self.shown
         if self.shown_at < now:
             self._before = self.shown_at, self.shown.weight
-        former, self._former = self._former, before
         phase = self._clock.advance(self, now)
         layer = layer_of(motion, Moment(phase, now, context.body(), context.shown()))
         self.height = height(self)
         self.shown, self.shown_at = self._raised(self._faded_in(layer, now)), now
-        changed = self._parameters_jumped() and _jumps(former, before, layer)
+        changed = self._jumps.occur(before, layer)
         if motion.jumped or changed:
             context.switch(motion.joints, GlobalTime(now + (CHANGE if changed else motion.entrance)))
         return self.shown
-
-    def _parameters_jumped(self) -> bool:
-        """Return whether a parameter of the motion has changed since the last call, by much more than just before."""
-        played, self._played = self._played, self._values()
-        before, self._changes = self._changes, _changes(played, self._played)
-        pairs = zip_longest(self._changes, before, fillvalue=0.0)
-        return any(abs(change) > _MUCH_MORE * abs(last) for change, last in pairs)
-
-    def _values(self) -> tuple[float, ...]:
-        """Return the values of the parameters that may change while it plays."""
-        return tuple([cell.value for cell in self._cells])
 
     def _faded_in(self, layer: Layer, now: GlobalTime) -> Layer:
         """Scale the weight of a motion that joined late."""
@@ -407,96 +365,3 @@ class AnimationUnit(PlanUnit):
     def _relaxing_layer(self, gone: float, now: GlobalTime, rest: Body) -> Layer:
         begin = self.motion.key_positions.get("relax", 1.0)
         return layer_of(self.motion, Moment(begin + gone * (1.0 - begin), now, rest))
-
-
-def motion_timing(behavior: Behavior, motion: MotionUnit, keys: Mapping[str, float]) -> Timing:
-    """Return the preferred timing of a behavior, from the key positions of its motion.
-
-    Args:
-        behavior: to play.
-        motion: that plays it.
-        keys: the phase of each point of the motion, and of each that BML defines for the behavior.
-    """
-    # Additive motion has no holds: points that coincide stay together.
-    waits = motion.kind is not LayerKind.ADDITIVE
-    holds = _holds(isinstance(behavior, Pointing), behavior.sync_points) if waits else _NO_HOLDS
-    first, last = (motion.key_positions[point] for point in motion.authored)
-    limits = _Limits(first, last, *(motion.stretch or (0.0, inf)))
-    shortest = tuple(motion.shortest.items())
-    return _timing(tuple(keys.items()), motion.preferred_duration, shortest, limits, holds, behavior.persistent)
-
-
-def _changes(before: Sequence[float], after: Sequence[float]) -> tuple[float, ...]:
-    """Return the differences of values; nothing if there is none."""
-    return () if before == after else tuple(new - old for old, new in zip(before, after, strict=True))
-
-
-def _jumps(former: Layer, before: Layer, after: Layer) -> bool:
-    """Return whether the turn of a joint in a frame differs from the one before by more than can be followed."""
-    for joint, turn in after.rotations.items():
-        last = before.rotations.get(joint, turn)
-        first = former.rotations.get(joint, last)
-        if angle(difference(difference(first, last), difference(last, turn))) > _FOLLOWED:
-            return True
-    return False
-
-
-class _Limits(NamedTuple):
-    """The durations that an author allows for each phase in a part of a motion, relative to the preferred ones.
-
-    Attributes:
-        first: the phase at which the part begins, 0 to 1.
-        last: the phase at which it ends.
-        least: stretch of each of its phases.
-        most: likewise.
-    """
-
-    first: float
-    last: float
-    least: float
-    most: float
-
-
-@lru_cache(_MOST_TIMINGS)
-def _timing(
-    keys: tuple[tuple[str, float], ...],
-    duration: float,
-    shortest: tuple[tuple[str, float], ...],
-    limits: _Limits,
-    holds: frozenset[PhaseEnds],
-    persistent: bool,
-) -> Timing:
-    needs = dict(shortest)
-    phases = []
-    for (point, begin), (other, end) in pairwise(keys):
-        part = end - begin
-        # The parts add up to the duration, except for their rounding.
-        need = min(needs.get(other, 0.0), part * duration)
-        if (point, other) in holds:
-            phases.append(Phase(part * duration, PhaseKind.HOLD, shortest=need))
-        elif part > 0.0 and limits.first <= begin and end <= limits.last:
-            preferred = part * duration
-            least, most = limits.least * preferred, limits.most * preferred
-            phases.append(Phase(preferred, PhaseKind.ELASTIC, least, most, need))
-        else:
-            phases.append(Phase(part * duration, PhaseKind.ELASTIC, shortest=need))
-    return Timing(tuple(point for point, _ in keys), tuple(phases), persistent=persistent)
-
-
-@lru_cache(_MOST_TIMINGS)
-def _holds(pointing: bool, points: SyncPoints) -> frozenset[PhaseEnds]:
-    """Return the phases that are holds."""
-    if pointing:
-        return _HOLDS | _STAYS
-    # A motion that only comes and goes, such as a gaze, holds in between.
-    return _HOLDS | ({("ready", "relax")} & set(pairwise(points)))
-
-
-def keys_of(behavior: Behavior, motion: MotionUnit) -> dict[str, float]:
-    """Return the phase of each point of a behavior that a motion plays, in order."""
-    wanted = (*behavior.sync_points, *behavior.instead_of)
-    keys = motion.key_positions
-    if not keys.keys() >= set(wanted):
-        keys = with_gesture_points(keys)
-    # A motion with several strokes has no single stroke point.
-    return {sync: phase for sync, phase in keys.items() if sync != "stroke" or "stroke:1" not in keys}

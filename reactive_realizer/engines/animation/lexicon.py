@@ -13,8 +13,8 @@ from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import BML, BMLT, MURML
 from reactive_realizer.engine.lexicon import Changeable, LexiconEntry
-from reactive_realizer.engines.animation.animation_unit import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
+from reactive_realizer.engines.animation.motion_timing import keys_of, motion_timing
 from reactive_realizer.engines.animation.motion_unit import EXPRESSIVITY_RANGES, GESTURE_POINTS
 from reactive_realizer.engines.animation.motions.posture import PostureMotionUnit
 from reactive_realizer.engines.animation.posture.posture_library import LEXEMES

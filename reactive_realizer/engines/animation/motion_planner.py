@@ -12,12 +12,13 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.place import Place
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
-from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext, keys_of
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext
 from reactive_realizer.engines.animation.fade_out import DURATION as FADE_OUT
 from reactive_realizer.engines.animation.faults import NoIdle, TooMuchOfIdle, WeightOnNoFoot
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
 from reactive_realizer.engines.animation.motion_library import MotionLibrary
+from reactive_realizer.engines.animation.motion_timing import keys_of
 from reactive_realizer.engines.animation.motion_unit import MotionUnit
 from reactive_realizer.engines.animation.motions.locomotion import LocomotionMotionUnit, LocomotionUnit
 from reactive_realizer.engines.animation.motions.posture import (
