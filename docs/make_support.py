@@ -17,7 +17,7 @@ from reactive_realizer.bml.embr.syntax import PARAMETERS as EMBR_PARAMETERS
 from reactive_realizer.bml.extensions import BehaviorParameter, Trajectory
 from reactive_realizer.bml.key_poses import GOALS, KeyPose
 from reactive_realizer.bml.murml.description import Slot
-from reactive_realizer.bml.murml.reader import SYMMETRIES
+from reactive_realizer.bml.murml.parts import SYMMETRIES
 from reactive_realizer.bml.murml.symbols import SYMBOLS
 from reactive_realizer.bml.names import BML, BML_EXT, BMLA, BMLT, MURML, OWN
 from reactive_realizer.bml.speech import Mark
