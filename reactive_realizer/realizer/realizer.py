@@ -2,7 +2,6 @@
 
 import asyncio
 import logging
-import os
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AsyncExitStack
 from dataclasses import replace
@@ -13,12 +12,10 @@ from reactive_realizer.bml.block import Parsed
 from reactive_realizer.bml.dialects import ONLY_BML, Dialects
 from reactive_realizer.bml.names import EVENTS
 from reactive_realizer.bml.speech import streams_of
-from reactive_realizer.clock.ticker import Tick, first_tick
-from reactive_realizer.clock.units import GlobalTime, Time, is_due
+from reactive_realizer.clock.ticker import Tick
+from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange, AudioHeard, StreamedAudio
-from reactive_realizer.embodiment.frame import Frame
 from reactive_realizer.embodiment.world import World
-from reactive_realizer.engine.effects import Output
 from reactive_realizer.engine.engine_task import EngineTasks
 from reactive_realizer.engine.guarded_engine import GuardedEngine
 from reactive_realizer.engine.speech_streams import SpeechStreams
@@ -42,8 +39,10 @@ from reactive_realizer.realizer.background_tasks import BackgroundTasks
 from reactive_realizer.realizer.character import Character
 from reactive_realizer.realizer.document_checker import DocumentChecker
 from reactive_realizer.realizer.emitted_events import EmittedEvents
+from reactive_realizer.realizer.frame_maker import FrameMaker, FramesListener
 from reactive_realizer.realizer.inbox import Inbox
 from reactive_realizer.realizer.inputs import BmlText, Forecast, Input, Push, StreamFailure, TickInputs
+from reactive_realizer.realizer.rounds import Rounds
 from reactive_realizer.realizer.verifier import Verifier
 from reactive_realizer.scheduler.admission import Admission, UnknownCharacter
 from reactive_realizer.scheduler.bml_scheduler import BMLScheduler
@@ -52,11 +51,6 @@ from reactive_realizer.scheduler.strategy import SchedulingStrategy
 
 logger = logging.getLogger(__name__)
 
-_MOST_ROUNDS = 100
-
-_CORES = os.cpu_count() or 1
-
-FramesListener = Callable[[Mapping[str, Frame]], None]
 AudioListener = Callable[[AudioChange], None]
 EntryListener = Callable[[TickInputs], None]
 
@@ -134,7 +128,7 @@ class Realizer:
         self._leading = EngineTasks(engine for engine in self._routing.engines if engine.leads)
         self._following = EngineTasks(engine for engine in self._routing.engines if not engine.leads)
         self._inbox = Inbox(self.board, self._streams, world, limits)
-        self._frame_listeners: list[FramesListener] = []
+        self._frames = FrameMaker(characters, self._engines, self._following)
         self._audio_listeners: list[AudioListener] = []
         self._entry_listeners: list[EntryListener] = []
         self._stack = AsyncExitStack()
@@ -157,6 +151,9 @@ class Realizer:
         self._stack.callback(self._background.close)
         self.scheduler = BMLScheduler(
             self.board, self._routing, self.feedback, self._background, self._strategy, self.limits
+        )
+        self._rounds = Rounds(
+            self.board, self._time, self.scheduler, self._leading, self._following, self._publish_audio
         )
         figures = {each.id: each.humanoid for each in self.characters.values()}
         listeners = Listeners(self.scheduler, figures, self.world)
@@ -266,8 +263,7 @@ class Realizer:
 
         The returned function ends that. Without listeners, frames are composed only while an engine needs them.
         """
-        self._frame_listeners.append(listener)
-        return lambda: self._frame_listeners.remove(listener)
+        return self._frames.watch(listener)
 
     def hear(self, listener: AudioListener) -> None:
         """Call a listener with the changes of audio."""
@@ -311,13 +307,13 @@ class Realizer:
         if recorded is not None:
             self._streams.replay(recorded.forecasts)
         self._apply(entered, tick.time)
-        await self._catch_up(tick)
-        watched = Tick.on_time(tick.number, tick.frame and self._frames_needed(entered))
+        await self._rounds.catch_up(tick, self._check)
+        watched = Tick.on_time(tick.number, tick.frame and (entered.watched or self._frames.needed))
         self.board.begin(watched)
         self._take_blocks(entered, tick.time)
-        shown = await self._play(watched)
+        shown = await self._rounds.play(watched)
         if watched.frame:
-            await self._publish_frames(tick.time, shown)
+            await self._frames.publish(tick.time, shown)
         self.scheduler.publish(tick.time)
         self._check(tick.time)
         self.feedback.flush(tick.time)
@@ -325,7 +321,7 @@ class Realizer:
     async def _enter(self, tick: Tick) -> TickInputs:
         inputs, work = self._inbox.take(tick.time), self._background.ready()
         predicted = await self._streams.run(self._inbox.deliver(inputs, tick.time), tick.time)
-        return TickInputs(tick.number, inputs, work, predicted, watched=bool(self._frame_listeners))
+        return TickInputs(tick.number, inputs, work, predicted, watched=self._frames.watched)
 
     def _apply(self, entered: TickInputs, now: GlobalTime) -> None:
         """Move targets, write predictions, have speech follow what is heard, take sound, and push characters."""
@@ -373,25 +369,6 @@ class Realizer:
         for engine in self._engines[push.character]:
             engine.push(push.joint, force, push.duration)
 
-    async def _catch_up(self, tick: Tick) -> None:
-        """Play the skipped ticks in which something was due, in order and without output."""
-        due = self._next_due(tick.previous) if tick.left_out else None
-        number = tick.left_out.start
-        while due is not None and (number := max(number, first_tick(due))) in tick.left_out:
-            missed = Tick.on_time(number)
-            self.board.begin(missed)
-            await self._play(missed)
-            self._check(missed.time)
-            due = self._next_due(missed.time)
-            number += 1
-
-    def _next_due(self, after: GlobalTime) -> Time:
-        """The earliest known time after ``after`` at which a block or an engine has something to do."""
-        times = (self.scheduler.next_start, self._leading.next_due, self._following.next_due)
-        if any(is_due(time, after) for time in times):  # it hides later ones
-            return self.scheduler.next_due(after)
-        return min((time for time in times if time is not None), default=None)
-
     def _take_blocks(self, entered: TickInputs, now: GlobalTime) -> None:
         """Deliver the results of slow work, then have new blocks enter."""
         self.scheduler.begin_planning()
@@ -402,41 +379,6 @@ class Realizer:
             if isinstance(entry, BmlText):
                 self.scheduler.take(entry.parsed or (), entry.client)
 
-    async def _play(self, tick: Tick) -> list[Output]:
-        """Play rounds of the tick until nothing changes, then show its frame, if one is due; the outputs."""
-        shown: list[Output] = []
-        for _ in range(_MOST_ROUNDS):
-            if await self._play_round(tick):
-                continue
-            shown = self._following.show(tick) if tick.frame else []
-            if not self.scheduler.apply([output.effects for output in shown], tick.time):
-                return shown
-        self.scheduler.fail_restless(_MOST_ROUNDS, tick.time)
-        return self._following.show(tick) if tick.frame else []
-
-    async def _play_round(self, tick: Tick) -> bool:
-        """Play one round; whether anything changed."""
-        self.scheduler.advance(tick.time)
-        self._write_time(tick.time)
-        if self.scheduler.apply(await self._leading.play(tick), tick.time):
-            return True
-        plays = await self._following.play(tick)
-        changed = self.scheduler.apply(plays, tick.time)
-        for play in plays:
-            for change in play.audio:
-                self._publish_audio(change)
-        return changed or self.scheduler.advance(tick.time)
-
-    def _frames_needed(self, entered: TickInputs) -> bool:
-        """Whether a listener wants frames, or wanted them in the recorded session, or an engine needs them itself."""
-        return entered.watched or bool(self._frame_listeners) or self._following.need_frames
-
-    def _write_time(self, now: GlobalTime) -> None:
-        """Move the cells that depend on the time, if there are any."""
-        if self._time.dependents:
-            with self.board.graph.transaction("time"):
-                self._time.set(now)
-
     def _check(self, now: GlobalTime) -> None:
         """Report the constraints that have been broken since the last call."""
         if self._verifier is not None:
@@ -446,24 +388,3 @@ class Realizer:
     def _publish_audio(self, change: AudioChange) -> None:
         for listener in self._audio_listeners:
             listener(change)
-
-    async def _publish_frames(self, time: GlobalTime, outputs: Sequence[Output]) -> None:
-        by_engine = dict(zip((task.engine for task in self._following.tasks), outputs, strict=True))
-        shown = [
-            (character, [by_engine[engine] for engine in self._engines[character.id] if engine in by_engine])
-            for character in self.characters.values()
-        ]
-        simulations = [simulation for character, own in shown for simulation in character.move(time, own)]
-        # One thread a core: more of them would only wait for the interpreter's lock.
-        threads, waiting = min(_CORES, len(simulations)), iter(simulations)
-        await asyncio.gather(*(asyncio.to_thread(_call_all, waiting) for _ in range(threads)))
-        # Eyes look at the positions that other characters, and the character's own hands, have in this frame.
-        frames = {character.id: character.look(own) for character, own in shown}
-        for listener in tuple(self._frame_listeners):
-            listener(frames)
-
-
-def _call_all(waiting: Iterator[Callable[[], None]]) -> None:
-    """Call what is left of an iterator that threads share."""
-    for call in waiting:
-        call()

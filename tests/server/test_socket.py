@@ -101,14 +101,14 @@ async def test_the_characters_are_at_the_positions_of_the_human_file(on_air: Ope
 async def test_no_pose_is_composed_without_a_client_for_frames(on_air: Open) -> None:
     async with on_air() as air:
         socket = await air.connect("?streams=feedback")
-        assert not air.live.realizer._frame_listeners
+        assert not air.live.realizer._frames._listeners
         looking = await air.connect("?streams=frames")
-        assert air.live.realizer._frame_listeners
+        assert air.live.realizer._frames._listeners
         await looking.raw.close()
         assert (await socket.ask(type="bml", xml=wait()))["type"] == "accepted"
         await air.tick()
         await socket.hear_feedback("b1:start")
-        assert not air.live.realizer._frame_listeners
+        assert not air.live.realizer._frames._listeners
 
 
 async def test_a_socket_gets_only_the_streams_that_it_requests(on_air: Open) -> None:
