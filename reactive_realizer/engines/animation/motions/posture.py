@@ -13,12 +13,13 @@ from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.speed_limit import ROOT_SPEED
 from reactive_realizer.embodiment.vector import Vec3, distance, scale
-from reactive_realizer.engines.animation.animation_unit import AnimationUnit, motion_timing
+from reactive_realizer.engines.animation.animation_unit import AnimationUnit
 from reactive_realizer.engines.animation.easing import minimum_jerk, share
 from reactive_realizer.engines.animation.faults import WrongElement
 from reactive_realizer.engines.animation.keyframe.clip_files import preload_clip
 from reactive_realizer.engines.animation.kinematics import path_length
 from reactive_realizer.engines.animation.motion_maker import MakerContext, MotionRequest
+from reactive_realizer.engines.animation.motion_timing import motion_timing
 from reactive_realizer.engines.animation.motion_unit import (
     START_TO_END,
     Moment,
