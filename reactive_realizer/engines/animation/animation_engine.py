@@ -24,12 +24,10 @@ from reactive_realizer.bml.idle_change import IdleChange
 from reactive_realizer.bml.key_poses import KeyPoses
 from reactive_realizer.bml.murml.behaviors import MurmlGesture
 from reactive_realizer.bml.release import Release
-from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.bml.weight_shift import WeightShift
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import RESOLUTION, GlobalTime, Time
 from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
-from reactive_realizer.embodiment.inertialization import CARRIED
 from reactive_realizer.embodiment.joints import HEAD, ROOT, SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose
 from reactive_realizer.embodiment.vector import Vec3
@@ -41,22 +39,14 @@ from reactive_realizer.engine.player import height
 from reactive_realizer.engines.animation.animation_predictor import AnimationPredictor
 from reactive_realizer.engines.animation.animation_unit import AnimationUnit, MotionContext
 from reactive_realizer.engines.animation.blinks import USUAL_RATE
+from reactive_realizer.engines.animation.ended_motions import EndedMotions
 from reactive_realizer.engines.animation.expression.functions import plugin_functions
-from reactive_realizer.engines.animation.fade_out import DURATION as FADE_OUT
-from reactive_realizer.engines.animation.fade_out import (
-    FadeOut,
-    FadeOuts,
-    fade_out_duration,
-    moves_lower_body,
-    with_reached_root,
-)
 from reactive_realizer.engines.animation.failure_isolation import FailureIsolation
 from reactive_realizer.engines.animation.faults import EndsForBothHands
 from reactive_realizer.engines.animation.gaze.eye_poser import EyePoser
 from reactive_realizer.engines.animation.gaze.head_turn import GAZE_WEIGHTS, HEAD_WEIGHTS
 from reactive_realizer.engines.animation.idle import Idle
 from reactive_realizer.engines.animation.idle_course import IdleChangeUnit
-from reactive_realizer.engines.animation.idle_movements import standing_degree
 from reactive_realizer.engines.animation.kinematics import MotionHistory
 from reactive_realizer.engines.animation.late_hands import LateHands
 from reactive_realizer.engines.animation.leaning import Leaning
@@ -68,28 +58,20 @@ from reactive_realizer.engines.animation.motion_unit import (
     AMOUNT_RANGE,
     EXPRESSIVITY_RANGES,
     MotionUnit,
-    Resource,
 )
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
-from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionUnit
-from reactive_realizer.engines.animation.motions.posture import temporary_bodies
+from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS
 from reactive_realizer.engines.animation.motions.release import ReleaseMotionUnit
-from reactive_realizer.engines.animation.persistent_poses import PersistentPoses
 from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
-from reactive_realizer.engines.animation.posture.foot_planting import FootPlanting
 from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
-from reactive_realizer.engines.animation.returning_hands import ReturningHands
+from reactive_realizer.engines.animation.stepping import Stepping
 from reactive_realizer.engines.animation.trunk_following import TrunkFollowing
-from reactive_realizer.engines.animation.waiting_arms import WaitingArms
-from reactive_realizer.engines.animation.walk import Walk
-from reactive_realizer.engines.animation.walking.progression import Goal
-from reactive_realizer.engines.animation.walking.step_turn import StepTurns
 from reactive_realizer.engines.animation.weight_shifts import WeightShiftUnit
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.physics.controllers.controller import PhysicalController
 from reactive_realizer.planunit.parameter import Range
-from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
+from reactive_realizer.planunit.plan_unit import PlanUnit
 from reactive_realizer.reactive.graph import Graph
 
 _HEAD = frozenset(HEAD)
@@ -142,7 +124,6 @@ class AnimationEngine(DefaultEngine):
             self._drafts.possible_bodies,
             context.humanoid.clearance,
         )
-        self._base_layer: Layer | None = None
         self._humanoid.rest(self._rest.body)
         functions = plugin_functions(context.functions)
         maker_context = MakerContext(
@@ -161,29 +142,23 @@ class AnimationEngine(DefaultEngine):
         self._idle = Idle(Random(context.seed), rate, context.idle) if context.idle else None
         self._late_hands = LateHands(context.humanoid)
         self._physical_figure = PhysicalFigure(context.humanoid)
-        self._foot_planting = FootPlanting(context.humanoid.avatar.skeleton)
-        self._standing = 1.0
-        self._walk = Walk(context.humanoid)
-        self._waiting_arms = WaitingArms(self._release)
+        self._stepping = Stepping(context.humanoid, self._rest, self.player)
+        self._ended = EndedMotions(context.humanoid, self._rest, self._playing, self._drafts.note_interrupted)
         self._trunk_following = TrunkFollowing(context.humanoid.avatar.skeleton)
         self._leaning = Leaning(context.humanoid.avatar.skeleton, self._humanoid.switch)
         # The controllers that act in the present frame.
         self._acting: dict[AnimationUnit, PhysicalController] = {}
-        self._step_turns = StepTurns()
-        self._persistent = PersistentPoses()
         self._isolated = FailureIsolation(self.name)
         self._eye_poser = EyePoser(
-            context.humanoid, context.world, self._idle, lambda: self._persistent.motions, self._isolated
+            context.humanoid, context.world, self._idle, lambda: self._ended.persistent, self._isolated
         )
-        self._fade_outs = FadeOuts()
-        self._returning_hands = ReturningHands(self._rest)
         # Notes of new units, not reported yet.
         self._notes: list[Warn] = []
         self._history = MotionHistory(lambda: self._humanoid.body)
         # Ends of holds, because a behavior releases their hands.
         self._released: list[EndUnit] = []
         predictor = AnimationPredictor(
-            context.humanoid.avatar.skeleton, self._base, lambda: self.player.units, self._history
+            context.humanoid.avatar.skeleton, lambda: self._rest.layer, lambda: self.player.units, self._history
         )
         motion_context = self._new_motion_context(predictor, context.graph)
         self._planner = MotionPlanner(self._library, self._idle, self._rest, self._drafts, predictor, motion_context)
@@ -195,9 +170,9 @@ class AnimationEngine(DefaultEngine):
             lambda: self._humanoid.shown,
             lambda: self._rest.body,
             predictor.state_before,
-            lambda now: self._returning_hands.body(self._playing(), now),
+            self._ended.hands,
             self._note_passed,
-            self._fade_out,
+            self._note_end,
             self._claimed,
             self._humanoid.switch,
             graph,
@@ -243,32 +218,27 @@ class AnimationEngine(DefaultEngine):
         """Return to the initial posture and gaze, and to usual idle animation."""
         if self._idle is not None:
             self._idle.reset(time)
-        self._release(self._persistent.clear(), time)
         self._eye_poser.note_change(time)
-        base, body = self._base(), self._rest.body
-        if self._rest.reset():
-            self._drafts.note_interrupted([body])
-            self._fade_outs.start(FadeOut(base, time, fade_out_duration(base, self._roots())))
+        self._ended.reset(time)
 
     def layers(self, tick: Tick) -> tuple[Layer, ...]:
         """Return all layers: rest posture, idle animation, persistent poses, fading and playing motions, feet."""
         self._history.start_frame(tick.time)
-        self._fade_outs.start_frame(tick.time)
+        self._ended.start_frame(tick.time)
         playing = self._playing()
         self._acting = self._controlling(playing)
         self._humanoid.aim(_pointing_arms(playing))
+        balances = self._balances()
         walking: tuple[Layer, ...] = self._isolated(
-            "walking", lambda: self._walk.layers(tick.time, self._destination(tick.time, playing), self._rest.body), ()
+            "walking", lambda: self._stepping.walk(tick.time, playing, balances=balances), ()
         )
-        if not self._balances():  # forces sway the pelvis: its animation stays as it was
-            self._standing = standing_degree(self._walk.stiffness - self._humanoid.body.root[1])
-        standing = self._standing
+        standing = self._stepping.standing(balances=balances)
         layers = (
-            self._base(),
+            self._rest.layer,
             *walking,
             *self._breath(tick.time, standing, playing),
-            *self._persisting(tick.time),
-            *self._waiting_arms.layers(tick.time),
+            *self._ended.persisting(tick.time),
+            *self._ended.waiting(tick.time),
             *self._stacked(tick.time),
         )
         follow: tuple[Layer, ...] = self._isolated(
@@ -278,17 +248,8 @@ class AnimationEngine(DefaultEngine):
             "leaning", lambda: self._leant(tick.time, playing, (*layers, *follow)), ()
         )
         posed = (*layers, *follow, *lean)
-        feet: tuple[Layer, ...] = self._isolated(
-            "foot planting", lambda: self._foot_planting.layers(posed, tick.time, self._walk.feet), ()
-        )
+        feet: tuple[Layer, ...] = self._isolated("foot planting", lambda: self._stepping.plant(posed, tick.time), ())
         return (*posed, *feet)
-
-    def _persisting(self, now: GlobalTime) -> tuple[Layer, ...]:
-        layers = self._persistent.layers(now, self._humanoid.body)
-        for motion in self._persistent.motions:
-            if motion.jumped:
-                self._humanoid.switch(motion.joints, GlobalTime(now + motion.entrance))
-        return layers
 
     def _followed(
         self, now: GlobalTime, playing: Sequence[AnimationUnit], layers: Iterable[Layer], standing: float
@@ -325,14 +286,14 @@ class AnimationEngine(DefaultEngine):
         idle = self._idle
         if idle is None:
             return ()
-        busy = _moved_arms((*(unit.motion for unit in playing), *self._persistent.motions))
+        busy = _moved_arms((*(unit.motion for unit in playing), *self._ended.persistent))
         return self._isolated("idle animation", lambda: (checked(idle.layer(now, standing, busy)),), ())
 
     def _stacked(self, now: GlobalTime) -> list[Layer]:
         shown = self.player.show(AnimationUnit, lambda unit: (unit, unit.layer(now)), now)
         playing = [(unit.height, layer) for unit, layer in shown]
         alone = [layer for _, layer in shown]
-        return self._isolated("fading motion", lambda: self._fade_outs.with_playing(playing, now), alone)
+        return self._isolated("fading motion", lambda: self._ended.with_playing(playing, now), alone)
 
     def _playing(self) -> list[AnimationUnit]:
         """Return the units that play, in order of planning."""
@@ -345,20 +306,19 @@ class AnimationEngine(DefaultEngine):
     @property
     def needs_frames(self) -> bool:
         """Whether the figure is simulated, or walks: what happens then depends on what happened before."""
-        if self._physical_figure.active or self._walk.active:
+        if self._physical_figure.active or self._stepping.active:
             return True
         playing = self._playing()
-        return bool(self._controlling(playing) or self._walks()) or any(unit.motion.steps for unit in playing)
+        return bool(self._controlling(playing) or self._stepping.walks) or any(unit.motion.steps for unit in playing)
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
         """Return the moves of points: locomotion arrives at another time, or a temporal extent has changed.
 
         Hands that are released no longer hold on to a target.
         """
-        arrivals = (move for unit in self._walks() for move in self._walk.moves(unit, tick.time))
         slowed = (move for unit in self._playing() for move in unit.moves(tick.time, partial(self._awaited_from, unit)))
         released, self._released = tuple(self._released), []
-        return (*arrivals, *slowed, *released)
+        return (*self._stepping.arrivals(tick.time), *slowed, *released)
 
     def _awaited_from(self, unit: AnimationUnit) -> Time:
         """Return the first start of a behavior that needs the limbs of a unit after its relax; None if none does."""
@@ -367,23 +327,9 @@ class AnimationEngine(DefaultEngine):
         starts = (start for other in waiting if (start := other.start_and_end[0]) is not None)
         return min((start for start in starts if relax is not None and start > relax - RESOLUTION), default=None)
 
-    def _destination(self, now: GlobalTime, playing: Sequence[AnimationUnit]) -> Goal | None:
-        """Return where the figure goes or turns now: locomotion comes before turns of the feet for other motions."""
-        walks = (unit for unit in playing if isinstance(unit, LocomotionUnit))
-        goals = [goal for unit in walks if (goal := unit.goal()) is not None]
-        stands = self._rest.posture.stance is StanceType.STANDING and not self._balances()
-        if goals or not stands or any(Resource.STANCE in unit.resources for unit in playing):
-            self._step_turns.forget()
-            return goals[-1] if goals else None
-        return self._step_turns.goal(now, self._humanoid.place, lambda: self.player.stacked(AnimationUnit))
-
     def _balances(self) -> bool:
         """Return whether a controller moves the root in this frame."""
         return any(ROOT in controller.joints for controller in self._acting.values())
-
-    def _walks(self) -> list[LocomotionUnit]:
-        """Return the locomotion that plays."""
-        return [unit for unit in self.player.playing if isinstance(unit, LocomotionUnit)]
 
     def dynamics(self, tick: Tick) -> Dynamics | None:
         """Return the movement of the joints that controllers move and no motion turns (thesis 8.7.5)."""
@@ -429,7 +375,7 @@ class AnimationEngine(DefaultEngine):
         self._late_hands.note(unit, sync, time)
         if sync == "relax" and unit.motion.kind is LayerKind.GESTURE:
             others = (other for other in self.player.units if isinstance(other, AnimationUnit))
-            self._waiting_arms.note_relax(unit, others, time)
+            self._ended.note_relax(unit, others, time)
 
     def _end_holds(self, unit: AnimationUnit, released: frozenset[str], time: GlobalTime) -> None:
         """End the units that hold on to a target with an arm that is released; each ends as a whole."""
@@ -452,44 +398,9 @@ class AnimationEngine(DefaultEngine):
         holds = (other.resources for other in self._playing() if other.holds_on and other is not unit)
         return frozenset[str]().union(*claims, *holds)
 
-    def _fade_out(self, unit: AnimationUnit, time: GlobalTime) -> None:
-        """Take over the joints of a unit that has ended. A pose that persists lies below all others from now on."""
+    def _note_end(self, unit: AnimationUnit, time: GlobalTime) -> None:
         self._eye_poser.note_change_by(unit, time)
-        self._returning_hands.note_end(unit, time)
-        done = unit.state is UnitState.DONE and not unit.was_cut("end")
-        stays = done and unit.motion.persists_as is not None
-        if not done:
-            self._drafts.note_interrupted(temporary_bodies([unit.motion]))
-        base, layer = self._base(), with_reached_root(unit.shown, self._humanoid.shown.root)
-        duration = fade_out_duration(layer, self._roots())
-        if stays and unit.motion.becomes_rest():
-            self._fade_outs.hide(layer, unit.height)
-            duration = max(duration, fade_out_duration(base, self._roots()))
-            self._fade_outs.start(FadeOut(base, time, duration, under=layer.weight))
-        elif stays:
-            self._release(self._persistent.keep(unit.motion), time)
-        waiting = self._waiting_arms.note_end(unit, time)
-        if moves_lower_body(layer):
-            speed = unit.weight_speed(time)
-            since = unit.shown_at if speed else time
-            self._fade_outs.start(FadeOut(layer, since, duration, unit.height, speed))
-            self._humanoid.switch(layer.rotations, GlobalTime(time + CARRIED))
-        else:
-            self._release(layer.rotations.keys() - waiting, time)
-
-    def _release(self, joints: Collection[str], time: GlobalTime) -> None:
-        """Let joints go over to what is below the motion that had them."""
-        self._humanoid.switch(joints, GlobalTime(time + FADE_OUT))
-
-    def _roots(self) -> Iterator[Vec3]:
-        """Yield the displacements of HumanoidRoot at rest and in playing motions."""
-        yield self._rest.body.root
-        yield from (unit.shown.root for unit in self._playing() if unit.shown.root is not None)
-
-    def _base(self) -> Layer:
-        if self._base_layer is None or self._base_layer.rotations is not self._rest.pose:
-            self._base_layer = Layer(LayerKind.BASE, self._rest.pose, root=self._rest.body.root)
-        return self._base_layer
+        self._ended.end(unit, time)
 
 
 def _pointing_arms(playing: Iterable[AnimationUnit]) -> frozenset[str]:

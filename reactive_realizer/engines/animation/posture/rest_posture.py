@@ -8,6 +8,7 @@ from reactive_realizer.bml.behaviors import Pose
 from reactive_realizer.bml.vocabulary import StanceType
 from reactive_realizer.embodiment.body import Body, JointRotations
 from reactive_realizer.embodiment.clearance import Clear
+from reactive_realizer.embodiment.pose import Layer, LayerKind
 from reactive_realizer.engines.animation.posture.detour import Detour
 from reactive_realizer.engines.animation.posture.posture_library import BodyPosture, PostureLibrary
 from reactive_realizer.sized_cache import SizedCache
@@ -52,6 +53,7 @@ class RestPosture:
         self.detours = SizedCache[tuple[Body, Body], Detour](_REMEMBERED)
         self._resting = lru_cache(_REMEMBERED)(self._body)
         self.body = self._resting(self.posture)
+        self._layer: Layer | None = None
 
     @property
     def pose(self) -> JointRotations:
@@ -67,6 +69,13 @@ class RestPosture:
     def possible_bodies(self) -> Iterable[Body]:
         """Bodies in other postures in which that behavior may find the figure; from there it takes longer."""
         return self._possible_bodies()
+
+    @property
+    def layer(self) -> Layer:
+        """The layer of its pose, below all others; the same one until it rests in another posture."""
+        if self._layer is None or self._layer.rotations is not self.pose:
+            self._layer = Layer(LayerKind.BASE, self.pose, root=self.body.root)
+        return self._layer
 
     def adopt(self, posture: BodyPosture, body: Body) -> None:
         """Rest in another posture from now on.
