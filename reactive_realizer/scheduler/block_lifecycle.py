@@ -1,4 +1,7 @@
-"""The life of a block from its arrival to its end; the only code that changes its state, its pegs and its progress."""
+"""The life of a block from its arrival to its end.
+
+With the plans and transitions that it decides on, it is the only code that changes a block's state, pegs and progress.
+"""
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
@@ -10,11 +13,11 @@ from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.block_pegs import LateTiePeg
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.pegboard.pegboard import PegBoard
-from reactive_realizer.pegboard.time_peg import TimeCell
 from reactive_realizer.planunit.plan_unit import PlanUnit, UnitState
 from reactive_realizer.scheduler.block_composition import BlockComposition
 from reactive_realizer.scheduler.block_feedback import BlockFeedback
 from reactive_realizer.scheduler.block_planner import BlockPlanner
+from reactive_realizer.scheduler.block_plans import BlockPlans
 from reactive_realizer.scheduler.block_state import BlockEvent, BlockState
 from reactive_realizer.scheduler.block_transitions import BlockTransitions
 from reactive_realizer.scheduler.blocks import Blocks
@@ -35,7 +38,7 @@ BlockListener = Callable[[BMLBlock], None]
 
 
 class BlockLifecycle:
-    """Takes blocks from their arrival to their end; nothing else writes a block."""
+    """Takes blocks from their arrival to their end; nothing but this and what it decides on writes a block."""
 
     def __init__(
         self,
@@ -51,12 +54,14 @@ class BlockLifecycle:
         self._routing = routing
         self._blocks = blocks
         self._planner = planner
-        self._planning = planning
         self._feedback = feedback
         self._predictions = predictions
         self._units = UnitLifecycle(board, routing, blocks, feedback, predictions)
         self._ties = TieRelease(board, blocks, self._units, feedback)
         self._transitions = BlockTransitions(board, routing, blocks, self._ties, feedback, predictions)
+        self._plans = BlockPlans(
+            board, routing, blocks, planner, planning, feedback, self._units, self._ties, self._transitions
+        )
         self._arrivals = 0
         self._point_listeners: list[PointListener] = []
         self._start_listeners: list[BlockListener] = []
@@ -96,7 +101,7 @@ class BlockLifecycle:
             self._feedback.warn(block.key.character, block.key.block, fault)
         if entry.parsed.failed:
             self._transitions.end(block, BlockEvent.FAIL, now)
-        elif not self._fails_by(block, self._planner.prepare(block), now):
+        elif not self._plans.fails_by(block, self._planner.prepare(block), now):
             self._predictions.request(block)
 
     def accept_failed(self, composition: BlockComposition, entry: Entry, now: GlobalTime) -> None:
@@ -107,31 +112,8 @@ class BlockLifecycle:
         self._transitions.end(self._new_block(composition, (), entry), BlockEvent.FAIL, now)
 
     def plan(self, block: BMLBlock, outcome: Plan | Loss, now: GlobalTime, floor: GlobalTime) -> None:
-        """Commit the plan of a block, or fail the block if something required is lost.
-
-        Args:
-            block: in preparation.
-            outcome: of its planning.
-            now: the time of the tick.
-            floor: time before which the block does not start.
-        """
-        if isinstance(outcome, Loss):
-            self._fails_by(block, [outcome], now)
-        else:
-            self._commit(block, outcome, now, floor)
-        self._planner.leave(block)
-
-    def _commit(self, block: BMLBlock, plan: Plan, now: GlobalTime, floor: GlobalTime) -> None:
-        if self._fails_by_plan(block, plan, now):
-            return
-        with self._board.graph.transaction(f"plan {block.key.block}"):
-            holds = self._planning.lay_out(block, plan)
-            block.set_plan(floor, plan.units, plan.times, plan.kept, plan.bounds, holds)
-        self._blocks.watch.follow(block)
-        preparation = self._planner.preparation(block)
-        for unit in plan.units:
-            self._routing.assign(unit, preparation.engine_of(unit))
-        self._transitions.take(block, BlockEvent.PREPLAN if block.awaits_activation else BlockEvent.PLAN, now)
+        """Give a block in preparation its plan (`BlockPlans.take`)."""
+        self._plans.take(block, outcome, now, floor)
 
     # --- start
 
@@ -147,7 +129,7 @@ class BlockLifecycle:
         with self._board.graph.transaction(f"activate {name}"):
             block.activation.set(time)
         self._transitions.take(block, BlockEvent.ACTIVATE, time)
-        self._wait_for_next(block, block.renew_predicted(self._board), time)
+        self._plans.wait_for_next(block, block.renew_predicted(self._board), time)
         return None
 
     def start_due(self, now: GlobalTime) -> bool:
@@ -210,7 +192,7 @@ class BlockLifecycle:
             if unit.timing.rigid or not unit.begun:
                 self._units.retime(unit, before)
         else:
-            self._plan_again(block, f"new timing of {unit.behavior.id}", now)
+            self._plans.renew(block, f"new timing of {unit.behavior.id}", now)
 
     def wait_in_behavior(self, unit: PlanUnit, lacks_from: GlobalTime, until: GlobalTime, now: GlobalTime) -> None:
         """Have a behavior wait for what it lacks; one that is about to be cut is cut there."""
@@ -304,35 +286,21 @@ class BlockLifecycle:
         self._feedback.foreign_attributes(key, description, BLOCK_EXTENSIONS)
         return block
 
-    def _fails_by(self, block: BMLBlock, losses: Sequence[Loss], now: GlobalTime) -> bool:
-        """Warn of losses; whether the block fails by them."""
-        self._feedback.losses(block.key, losses)
-        fails = any(loss.required for loss in losses)
-        if fails:
-            self._transitions.end(block, BlockEvent.FAIL, now)
-        return fails
-
     def _keep_from_past(self, block: BMLBlock, now: GlobalTime) -> None:
         """Have a block start now if times from outside have moved its start to before the last tick."""
         if block.start.value is not None and block.start.value < self._board.previous:
             with self._board.graph.transaction(f"put off {block.key.block}"):
                 block.release_start((), now)
 
-    def _fails_by_plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> bool:
-        """Warn of the losses of a plan, and once of each behavior beyond its limits; whether the block fails by it."""
-        beyond = [loss for loss in plan.beyond_limits if loss.behavior not in block.beyond_limits]
-        block.beyond_limits.update(loss.behavior for loss in beyond if loss.behavior is not None)
-        return self._fails_by(block, (*plan.losses, *beyond), now)
-
     def _start(self, block: BMLBlock, now: GlobalTime) -> None:
         time = block.start.value or GlobalTime(0.0)
-        plan = self._planning.at_start(block, time, now)
-        if plan is not None and self._fails_by_plan(block, plan, time):
+        plan = self._plans.at_start(block, time, now)
+        if block.state.ended:
             return
         with self._board.graph.transaction(f"start {block.key.block}"):
             self._transitions.take(block, BlockEvent.START, time)
             if plan is not None:
-                self._replace_plan(block, plan, now)
+                self._plans.replace(block, plan, now)
             for peg in self._board.unnamed(block.key):
                 if isinstance(peg, LateTiePeg):
                     peg.start()
@@ -350,37 +318,6 @@ class BlockLifecycle:
                 self._feedback.warn_element(block.key, block.description, fault)
         for listener in self._start_listeners:
             listener(block)
-
-    def _wait_for_next(self, block: BMLBlock, renewed: Mapping[TimeCell, TimeCell], now: GlobalTime) -> None:
-        """Plan a block again that was activated, if points that it names had passed: it waits for the next ones."""
-        if not renewed or block.state is not BlockState.LURKING:
-            return
-        with self._board.graph.transaction(f"wait for the next of {block.key.block}"):
-            block.rename_pegs(renewed)
-        self._plan_again(block, f"plan {block.key.block} again", now)
-
-    def _plan_again(self, block: BMLBlock, cause: str, now: GlobalTime) -> None:
-        """Plan a block that waits again, from the constraints of its present plan."""
-        plan = self._planning.again(block, now)
-        if not self._fails_by_plan(block, plan, now):
-            with self._board.graph.transaction(cause):
-                self._replace_plan(block, plan, now)
-
-    def _replace_plan(self, block: BMLBlock, plan: Plan, now: GlobalTime) -> None:
-        """Within a transaction, give a block another plan, without the behaviors that this one loses."""
-        lost = [unit for unit in block.units if unit not in plan.units]
-        missed = self._ties.missed_by_drop(lost)
-        holds, replaced = self._planning.replace(block, plan)
-        for other in self._blocks.watch.following(replaced):
-            other.rename_pegs(replaced)
-            self._blocks.watch.follow(other)
-        self._planner.rename_pegs(replaced)
-        block.set_plan(block.end.floor, plan.units, plan.times, plan.kept, plan.bounds, holds)
-        self._blocks.watch.follow(block)
-        self._units.remove(lost, now)
-        block.dropped |= {unit.behavior.id for unit in lost}
-        if missed:
-            self._ties.release(block, missed, DroppedTie, now)
 
     def _end_accompaniments(self, ended: BMLBlock) -> None:
         """End the blocks that accompany one that has ended; if it is done, what plays of them may end by itself."""

@@ -31,7 +31,14 @@ from reactive_realizer.testing.pilot import open_pilot
 
 LEGAL = {(source, row.event): row for row in TRANSITIONS for source in row.sources}
 PACKAGE = Path(reactive_realizer.__file__).parent
-OWNERS = {"bml_block.py", "block_lifecycle.py", "block_transitions.py", "unit_lifecycle.py", "tie_release.py"}
+OWNERS = {
+    "bml_block.py",
+    "block_lifecycle.py",
+    "block_plans.py",
+    "block_transitions.py",
+    "unit_lifecycle.py",
+    "tie_release.py",
+}
 WRITERS = {"set_plan", "set_units", "set_predecessors", "rename_pegs", "update_end", "take_over_predecessors"}
 CHANGES = {"add", "append", "clear", "discard", "remove", "update"}
 
