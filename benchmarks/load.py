@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from itertools import cycle, islice, product
 from statistics import quantiles
 from time import thread_time
 from typing import NamedTuple
@@ -17,7 +18,10 @@ from reactive_realizer.server.live_scene import LiveScene, keep_from_ticks
 from reactive_realizer.testing.pilot import block
 
 AIMS = {
-    **{f"tick_p99_ms.{load}": 10 for load in ("chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")},
+    **{
+        f"tick_p99_ms.{load}": 10
+        for load in ("chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000", "postures_20")
+    },
     "viewers_200.cpu_share": 0.2,
     "viewers_500.late_p99_ms": 20,
 }
@@ -30,6 +34,9 @@ _AHEAD = 10.0
 
 _AUDIENCES = {"viewers_200": (200, 1, 0), "viewers_500": (500, 1, 500), "characters_10": (100, 10, 500)}
 """The number of viewers and of characters, and the least number of viewers allowed for a result."""
+
+_STANCES = ("STANDING", "SITTING", "CROUCHING", "LYING")
+_ARMS = ("AKIMBO", "CROSSED", "SPREAD", "FORWARD", "NEUTRAL")
 
 Load = Callable[[Intake, int, float], Awaitable[object]]
 
@@ -92,12 +99,21 @@ async def _predict(intake: Intake, behaviors: int, seconds: float) -> None:
         await asyncio.sleep(1 / RATE)
 
 
+async def _postures(intake: Intake, behaviors: int, seconds: float) -> None:
+    """Blocks with changes of posture, which look for ways of the arms around the body: one for 50 behaviors."""
+    shift = '<postureShift id="s"><stance type="{}"/><pose part="ARMS" lexeme="ARMS_{}"/></postureShift>'
+    changes = islice(cycle(product(_STANCES, _ARMS)), behaviors // 50)
+    await asyncio.gather(*(intake.blocks(block(f"b{i}", shift.format(*each))) for i, each in enumerate(changes)))
+    await asyncio.sleep(seconds)
+
+
 _LOADS: dict[str, Load] = {
     "nothing": _nothing,
     "chain_1000": _chain,
     "burst_50_blocks": _burst,
     "parallel_1000": _parallel,
     "predict_1000": _predict,
+    "postures_20": _postures,
 }
 
 

@@ -44,7 +44,7 @@ KEYS: dict[str, set[str]] = {
         *(
             f"{what}.{load}"
             for what in ("tick_p99_ms", "tick_cpu_ms")
-            for load in ("nothing", "chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000")
+            for load in ("nothing", "chain_1000", "burst_50_blocks", "parallel_1000", "predict_1000", "postures_20")
         ),
         *(
             f"{audience}.{what}"
