@@ -56,6 +56,9 @@ def _changed(folder: str) -> int:
 
 PACKAGE_ASSETS = Path(__file__).parent.parent / "assets"
 
+_PACKAGE_INDEX = AssetIndex(PACKAGE_ASSETS)
+"""Shared by all scenes, because to walk the folder takes milliseconds."""
+
 _ANYWHERE = "**/"
 """Prefix of a name that may be in a folder of any depth."""
 
@@ -75,7 +78,7 @@ class Assets:
             if not folder.is_dir():
                 raise RealizerError(NoFolder(folder=str(folder)))
         self._folders = (*(folder.resolve() for folder in folders), PACKAGE_ASSETS)
-        self._indices = {folder: AssetIndex(folder) for folder in self._folders}
+        self._indices = {folder: AssetIndex(folder) for folder in self._folders} | {PACKAGE_ASSETS: _PACKAGE_INDEX}
         # The same names are resolved again and again, and building paths takes longer than checking files.
         self._places = lru_cache(1000)(self._all_places)
 

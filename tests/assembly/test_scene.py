@@ -235,7 +235,9 @@ def test_folders_are_walked_once_for_several_names(folders: tuple[Path, Path], m
         assets("**/only-two.xml")
         with pytest.raises(RealizerError):
             assets("**/none.xml")
-    assert walks == [*folders, PACKAGE_ASSETS]
+    Assets(folders[:1])("**/only-one.xml")
+    assert [each for each in walks if each != PACKAGE_ASSETS] == [*folders, folders[0]]
+    assert walks.count(PACKAGE_ASSETS) <= 1, "all scenes share that of the package"
 
 
 def test_a_name_of_several_files_of_one_root_is_refused_with_all_of_them(folders: tuple[Path, Path]) -> None:

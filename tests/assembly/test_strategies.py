@@ -8,7 +8,7 @@ from reactive_realizer.errors import RealizerError
 from reactive_realizer.testing.pilot import open_pilot
 
 AFTER = """
-    <wait id="a" duration="0.5"/><wait id="b" duration="0.5"/>
+    <wait id="a" duration="0.5"/><wait id="b" duration="0.5" start="c:end"/><wait id="c" duration="0.1"/>
     <constraint><after ref="a:end"><sync ref="b:start"/></after></constraint>
 """
 
@@ -17,7 +17,7 @@ def test_the_built_in_strategies_are_found_by_name() -> None:
     assert {"convex", "embr", "smartbody"} <= set(names("strategies"))
 
 
-@pytest.mark.parametrize(("strategy", "warnings", "start"), [("convex", 0, 0.5), ("smartbody", 1, 0.0)])
+@pytest.mark.parametrize(("strategy", "warnings", "start"), [("convex", 0, 0.5), ("smartbody", 1, 0.1)])
 async def test_a_scene_uses_the_chosen_strategy(strategy: str, warnings: int, start: float) -> None:
     async with open_pilot(SceneOptions(voice="text", strategy=strategy)) as pilot:
         pilot.block("x", AFTER)

@@ -44,8 +44,8 @@ HOLD = "postStrokeHoldDuration"
 
 HOLD_RANGE = Range(0.0, 600.0)
 
-_PATHS = 150
-"""Work of computing the paths of the hands, as the limit `planning_per_tick` counts."""
+_PATH = 150
+"""Work of computing the path of a hand, as the limit `planning_per_tick` counts."""
 
 _INNER = GESTURE_POINTS[1:-1]
 
@@ -97,7 +97,6 @@ class GestureMotionUnit(MotionUnit):
 
     kind = LayerKind.GESTURE
     authored = ("ready", "relax")
-    first_work = _PATHS
     fixed = FILE_PARAMETERS | {HOLD}
     predictability = Predictability.ONCE_STARTED
 
@@ -121,6 +120,7 @@ class GestureMotionUnit(MotionUnit):
         self.ranges = {**dict.fromkeys(self.parameters, ANY_VALUE), AMOUNT: AMOUNT_RANGE, **ranges}
         self.joints, self.lacking = animation.joints, animation.lacking
         self.resources = arms_used(animation.joints)
+        self.first_work = _PATH * max(1, len(self.resources))
         self._animation = animation
         self._rest = rest
         self._begin = {joint: rest.rotation(joint) for joint in animation.joints}

@@ -80,6 +80,9 @@ class AnimationFinder:
 REPEATS = "r"
 """Parameter for the number of strokes, by convention of the published files."""
 
+_PATH = 40
+"""Work of computing how fast the joints can follow, as the limit `planning_per_tick` counts."""
+
 _REPEATS_RANGE = Range(0.0, float(MOST_REPETITIONS))
 
 
@@ -98,6 +101,7 @@ class ProceduralMotionUnit(MotionUnit):
 
     random: Random | None = None
 
+    first_work = _PATH
     fixed = FILE_PARAMETERS
     predictability = Predictability.ALWAYS
 
@@ -199,8 +203,9 @@ class ProceduralMotionMaker:
     def __call__(self, request: MotionRequest) -> ProceduralMotionUnit:
         """Make a motion."""
         parameters = tuple(finite_numbers(request.parameters).items())
-        motion = _planned(self._files(request), parameters, request.added, self._rest.body).copy()
-        motion.random = self._random
+        asked = self._files(request), parameters, request.added, self._rest.body
+        motion = _planned(*asked).copy()
+        motion.origin, motion.random = asked, self._random
         return motion
 
     def refresh(self) -> None:
