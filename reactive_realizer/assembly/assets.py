@@ -3,6 +3,7 @@
 import os
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import chain
 from pathlib import Path, PurePosixPath
 from stat import S_ISREG
 
@@ -115,7 +116,7 @@ class Assets:
     def _missing(self, name: str) -> NoAsset:
         """The fault of a name that no file has."""
         file = PurePosixPath(name)
-        known = (each for index in self._indices.values() for each in index.names(file.suffix))
+        known = chain.from_iterable(index.names(file.suffix) for index in self._indices.values())
         return NoAsset(name=name, files=(file.name,), known=tuple(known))
 
 
