@@ -109,10 +109,11 @@ def shortest_parts(
 
 def _step_times(bodies: Sequence[Body], joints: Sequence[str]) -> list[float]:
     """Return the time that each step between two bodies takes at the highest speeds, s."""
-    return [_step_time(before, after, joints) for before, after in pairwise(bodies)]
+    skeleton = bodies[0].skeleton
+    moved = [wrist for wrist in _WRISTS if wrist in skeleton and not set(joints).isdisjoint(skeleton.chain(wrist))]
+    return [_step_time(before, after, joints, moved) for before, after in pairwise(bodies)]
 
 
-def _step_time(before: Body, after: Body, joints: Sequence[str]) -> float:
-    wrists = (wrist for wrist in _WRISTS if wrist in before.skeleton)
+def _step_time(before: Body, after: Body, joints: Sequence[str], wrists: Sequence[str]) -> float:
     ways = (distance(before.transform(wrist).position, after.transform(wrist).position) for wrist in wrists)
     return max(turning_time(before, after, joints), max(ways, default=0.0) / WRIST_SPEED)

@@ -80,7 +80,7 @@ class AnimationFinder:
 REPEATS = "r"
 """Parameter for the number of strokes, by convention of the published files."""
 
-_PATH = 40
+_PATH = 10
 """Work of computing how fast the joints can follow, as the limit `planning_per_tick` counts."""
 
 _REPEATS_RANGE = Range(0.0, float(MOST_REPETITIONS))
