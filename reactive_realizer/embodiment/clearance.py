@@ -34,8 +34,11 @@ _SOFTLY = MARGIN + _YIELDING
 _FAR = 0.005
 """Way out up to which one step of the solution is enough, m."""
 
-_MORE = 4
-"""Further steps of the solution, after the first one."""
+_MORE = 16
+"""Most further steps of the solution, after the first one: what leaves a thigh may enter the trunk, and the reverse."""
+
+_LONGER = 1.5
+"""Length of these steps, in ways out: a step for all points of an arm is shorter than the deepest one needs."""
 
 _NOTHING = 1e-7
 """m²"""
@@ -176,7 +179,7 @@ def _turns(body: Body, look: _Look, share: float) -> dict[str, Quat]:
         before = arm
         for part, deep in left.items():
             found = part.contacts(arm.points, look.radii, 0.0)
-            ways = {index: max(0.0, each.depth - deep.get(index, 0.0)) for index, each in found.items()}
+            ways = {index: _LONGER * max(0.0, each.depth - deep.get(index, 0.0)) for index, each in found.items()}
             arm = arm.shifted(_shift(found, ways, shares))
         if arm is before:
             break

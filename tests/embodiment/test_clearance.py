@@ -143,6 +143,15 @@ def test_a_finger_at_the_edge_of_a_hand_keeps_clear_wherever_it_points(
     assert tip_depth(avatar, Clearance.of(avatar)(inside), finger) < YIELDING
 
 
+def test_a_forearm_between_thigh_and_belly_leaves_both(avatar: Avatar) -> None:
+    """The shortest way out of each of them leads into the other one."""
+    clearance = Clearance.of(avatar)
+    hips = {f"{side}_hip": from_axis_angle(SIDEWAYS, -0.5 * math.pi) for side in "lr"}
+    inside = bent(avatar, 1.1, 0.5, 1.5).posed({**hips, "vl5": from_axis_angle(SIDEWAYS, 0.9)})
+    assert clearance.deepest(inside) > 0.05
+    assert clearance.deepest(clearance(inside)) < YIELDING
+
+
 def test_an_arm_that_is_free_stays_as_it_is(avatar: Avatar) -> None:
     clearance, free = Clearance.of(avatar), bent(avatar, 0.0)
     assert clearance.deepest(free) == -MARGIN

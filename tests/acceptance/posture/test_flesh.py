@@ -122,6 +122,30 @@ async def test_hands_go_around_the_body_from_one_posture_to_another(
     assert max(accelerations(shown[100:], f"{side}_wrist").max() for side in "lr") < BRAKING
 
 
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (SITTING, CROUCHING + CROSSED),
+        (SITTING + AKIMBO, CROUCHING),
+        (SITTING + AKIMBO, CROUCHING + CROSSED),
+        (CROUCHING + CROSSED, SITTING),
+        (CROUCHING + CROSSED, SITTING + AKIMBO),
+    ],
+    ids=["arms cross", "hands leave the hips", "arms leave the hips and cross", "arms uncross", "hands go to the hips"],
+)
+async def test_arms_go_around_thighs_that_rise_with_stepping_feet(
+    either: RealizerPilot, before: str, after: str
+) -> None:
+    either.block("first", f'<postureShift id="s">{before}</postureShift>')
+    await either.advance(3)
+    either.block("b", f'<postureShift id="s">{after}</postureShift>')
+    await either.advance(3)
+    assert either.feedback.reached("b:s:end")
+    shown = either.bodies()[130:]
+    assert depth(either, shown) < YIELDING
+    assert max(accelerations(shown, f"{side}_wrist").max() for side in "lr") < BRAKING
+
+
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING", "CROUCHING"])
 @pytest.mark.parametrize("lexeme", [*BEFORE_THE_BELLY, "SELF", "CONDUCT"])
 async def test_no_gesture_passes_through_the_body(alternating: RealizerPilot, stance: str, lexeme: str) -> None:

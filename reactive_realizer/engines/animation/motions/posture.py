@@ -28,7 +28,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     Predictability,
     Resource,
 )
-from reactive_realizer.engines.animation.posture.detour import Detour, find_detour
+from reactive_realizer.engines.animation.posture.detour import SWING, Detour, find_detour
 from reactive_realizer.engines.animation.posture.posture_library import PART_JOINTS, BodyPosture
 from reactive_realizer.engines.animation.posture.rest_posture import RestPosture
 from reactive_realizer.engines.animation.shortest import from_rest, lag, moving_time
@@ -42,14 +42,6 @@ Without it the figure would fall.
 M. Schenkman et al., "Whole-body movements during rising to standing from sitting" (Physical Therapy 70, 1990): the
 trunk is bent most when it leaves the seat.
 """
-
-_SWING = {
-    "l_shoulder": (-0.8, 0.0, 0.4),
-    "r_shoulder": (-0.8, 0.0, -0.4),
-    "l_elbow": (-1.0, 0.0, 0.0),
-    "r_elbow": (-1.0, 0.0, 0.0),
-}
-"""Swing of the arms forward and aside meanwhile; otherwise the hands would pass through the rising thighs."""
 
 _BODY = 300
 """Further work of each body in a posture that was not known before: files may have to be read for it."""
@@ -110,7 +102,7 @@ class PostureMotionUnit(MotionUnit):
 
     def find_detour(self) -> Iterator[int]:
         """Find the way of the arms around the body from the base posture, in steps (`PlanUnit.finish_planning`)."""
-        if self.joints.isdisjoint(_SWING):
+        if self.joints.isdisjoint(SWING):
             return
         begin, goal, remembered = self._from, self.body.posed(self._goal, self._root), self._rest.detours
         detour = remembered.get((begin, goal))
@@ -152,7 +144,7 @@ class PostureMotionUnit(MotionUnit):
         if self._root is None:
             return {}
         bow = 2.0 * abs(self._root[1] - begin.root[1])
-        return {joint: scale(angles, bow) for joint, angles in (_BOW | _SWING).items() if joint in self._goal}
+        return {joint: scale(angles, bow) for joint, angles in (_BOW | SWING).items() if joint in self._goal}
 
     def _named_joints(self) -> frozenset[str]:
         """Return the joints that the behavior names; postures that play below do not show through them."""

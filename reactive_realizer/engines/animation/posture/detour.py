@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.clearance import Clear
-from reactive_realizer.embodiment.joints import SIDES
+from reactive_realizer.embodiment.joints import LEGS, SIDES
 from reactive_realizer.embodiment.pose import Layer, LayerKind, over
 from reactive_realizer.embodiment.quaternion import (
     Quat,
@@ -16,8 +16,10 @@ from reactive_realizer.embodiment.quaternion import (
     from_rotation_vector,
     multiply,
     rotation_vector,
+    slerp,
 )
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, length, scale
+from reactive_realizer.engines.animation.posture.foot_planting import planted
 
 _TURNED = {side: (f"{side}_shoulder", f"{side}_elbow") for side in SIDES}
 
@@ -27,8 +29,8 @@ _COARSE, _FINE = (tuple(number / 14 for number in range(first, 14, 2)) for first
 _STEPS = 4
 """Steps of the solution; what it leaves, the figure keeps clear of in each frame."""
 
-_MOST_POSES = 30
-"""Poses that were looked at after which no further step is made. Few searches need as many."""
+_FEW_POSES, _MOST_POSES = 10, 30
+"""Poses that were looked at after which no further step is made, from the first detour on and with raised arms."""
 
 _LOOK = 70
 """Work of each pose that is looked at, as the limit `planning_per_tick` counts."""
@@ -37,7 +39,20 @@ _ENOUGH = 0.03
 """A smaller turn is left to that, rad."""
 
 _MUCH = 0.1
-"""A turn that is left over from which on another kind of detour is tried, rad."""
+"""A turn that is left over from which on another search begins with raised arms, rad."""
+
+SWING = MappingProxyType(
+    {
+        "l_shoulder": (-0.8, 0.0, 0.4),
+        "r_shoulder": (-0.8, 0.0, -0.4),
+        "l_elbow": (-1.0, 0.0, 0.0),
+        "r_elbow": (-1.0, 0.0, 0.0),
+    }
+)
+"""A swing of the arms forward and aside, over thighs that rise; Euler angles, rad."""
+
+_RAISED = {joint: scale(angles, 0.8) for joint, angles in SWING.items()}
+"""The turns with which that search begins, as rotation vectors, rad."""
 
 _AWAY = 0.02
 """Distance that they keep from the body on their way, m."""
@@ -63,12 +78,10 @@ class Detour(NamedTuple):
         bends: joint -> Euler angles in the axes of the joint above it, rad: how much further it bends midway in any
             case.
         turns: joint of an arm -> rotation vector in its own axes, rad: how much further it turns midway.
-        early: whether the arms turn so from the beginning on, by a goal that lies further away.
     """
 
     bends: Mapping[str, Vec3] = MappingProxyType({})
     turns: Mapping[str, Vec3] = MappingProxyType({})
-    early: bool = True
 
     def turned(self, goal: Mapping[str, Quat], weight: float) -> Mapping[str, Quat]:
         """Return the rotations of a goal on the way to it; joints that it does not turn are left out.
@@ -80,19 +93,14 @@ class Detour(NamedTuple):
         if weight == 1.0:
             return goal
         turned = goal.keys() & (self.bends.keys() | self.turns.keys())
-        return {**goal, **{joint: self._turned(joint, goal[joint], weight) for joint in turned}}
+        return {**goal, **{joint: self.turned_joint(joint, goal[joint], weight) for joint in turned}}
 
-    def _turned(self, joint: str, goal: Quat, weight: float) -> Quat:
+    def turned_joint(self, joint: str, goal: Quat, weight: float) -> Quat:
+        """Return the rotation of one joint, likewise."""
         if (bend := self.bends.get(joint)) is not None:
             goal = multiply(from_euler(*scale(bend, 4.0 * weight * (1.0 - weight))), goal)
         turn = self.turns.get(joint)
-        return goal if turn is None else multiply(goal, from_rotation_vector(scale(turn, self.share(weight))))
-
-    def share(self, weight: float) -> float:
-        """Return how much of the turns is added to a goal: times its weight, it is 0 at both ends, and 1 midway."""
-        if self.early:
-            return 4.0 * (1.0 - weight)
-        return 5.38 * math.sqrt(weight) * (1.0 - weight)
+        return goal if turn is None else multiply(goal, from_rotation_vector(scale(turn, _share(weight))))
 
     def limited(self, begin: Body, goal: Body) -> "Detour":
         """Return the detour, smaller where a joint would go the other way round, or an elbow would bend backward."""
@@ -109,7 +117,7 @@ class Detour(NamedTuple):
         """Return whether a joint turns the same way round as without a detour, and no elbow bends backward."""
         start, end = begin.rotation(joint), goal.rotation(joint)
         same = math.copysign(1.0, _product(start, end))
-        ways = [self._turned(joint, end, weight) for weight in _LARGEST]
+        ways = [self.turned_joint(joint, end, weight) for weight in _LARGEST]
         if joint in _ELBOWS and max(map(_backward, ways)) > max(0.0, _backward(start), _backward(end)):
             return False
         return all(same * _product(start, way) > _HALF_A_TURN for way in ways)
@@ -126,25 +134,34 @@ def find_detour(begin: Body, goal: Body, clear: Clear, first: Detour) -> Generat
         clear: brings the arms of a body out of its flesh.
         first: the detour that is tried first.
     """
-    search = _Search(begin, goal, clear)
+    search = _Search(begin, goal, clear, first)
     yield 2 * _LOOK
-    best, left = yield from search.best(first)
+    best, left = yield from search.best(first, _FEW_POSES)
     if left >= _MUCH:
-        late, still_left = yield from search.best(first._replace(early=False))
-        best = late if still_left < left else best
+        raised = first._replace(turns=_RAISED).limited(begin, goal)
+        other, still_left = yield from search.best(raised, _MOST_POSES)
+        best = other if still_left < left else best
     return best
 
 
 class _Search:
     """The search for a detour, in steps."""
 
-    def __init__(self, begin: Body, goal: Body, clear: Clear) -> None:
+    def __init__(self, begin: Body, goal: Body, clear: Clear, first: Detour) -> None:
         self._poses = 0
-        self._begin, self._goal, self._clear = begin, goal, clear
+        self._begin, self._goal, self._clear, self._first = begin, goal, clear, first
+        self._stand = all(begin.rotation(joint) == goal.rotation(joint) for joint in LEGS) and begin.root == goal.root
+        self._on_first: dict[float, Body] = {}
+        self._arms = begin.skeleton.carried(joint for joints in _TURNED.values() for joint in joints)
         self._ends = [self._turns(body) for body in (begin, goal)]
 
-    def best(self, way: Detour) -> Generator[int, None, tuple[Detour, float]]:
-        """Find the best detour of a kind, and how far the arms still have to turn to be out of flesh, rad."""
+    def best(self, way: Detour, most: int) -> Generator[int, None, tuple[Detour, float]]:
+        """Find the best detour, and how far the arms still have to turn on it to be out of flesh, rad.
+
+        Args:
+            way: the detour with which the search begins.
+            most: poses after which it ends.
+        """
         best, least = way, (True, math.inf)
         for _ in range(_STEPS + 1):
             worst, further = yield from self._worst(way, _COARSE)
@@ -153,7 +170,7 @@ class _Search:
             left = rough, max(worst.values(), default=0.0)
             if left < least:
                 best, least = way, left
-            if not worst or self._poses >= _MOST_POSES:
+            if not worst or self._poses >= most:
                 break
             turns = {joint: add(way.turns.get(joint, ZERO), turn) for joint, turn in further.items()}
             way = way._replace(turns={**way.turns, **turns}).limited(self._begin, self._goal)
@@ -173,17 +190,26 @@ class _Search:
         worst: dict[str, float] = {}
         further: dict[str, Vec3] = {}
         for weight in weights:
-            layer = Layer(LayerKind.POSTURE, way.turned(self._goal.pose, weight), weight, root=self._goal.root)
-            turns = self._turns(over(self._begin, layer))
+            turns = self._turns(self._body(way, weight))
             for side in SIDES if turns else ():
                 begin, goal, size = (_size(each, side) for each in (*self._ends, turns))
                 beyond = size - (1.0 - weight) * begin - weight * goal
                 if beyond > worst.get(side, _ENOUGH):
                     worst[side] = beyond
-                    factor = beyond / size / (weight * way.share(weight))
+                    factor = beyond / size / (weight * _share(weight))
                     further |= {joint: scale(turns[joint], factor) for joint in _TURNED[side]}
             yield _LOOK
         return worst, further
+
+    def _body(self, way: Detour, weight: float) -> Body:
+        """Return the body on a detour. Its feet step as in a frame: a knee rises with its foot."""
+        if (body := self._on_first.get(weight)) is None:
+            layer = Layer(LayerKind.POSTURE, self._first.turned(self._goal.pose, weight), weight, root=self._goal.root)
+            body = over(self._begin, layer) if self._stand else planted(self._begin, layer)
+            self._on_first[weight] = body
+        ends = ((joint, self._begin.rotation(joint), self._goal.rotation(joint)) for joint in way.turns)
+        turns = {joint: slerp(begin, way.turned_joint(joint, goal, weight), weight) for joint, begin, goal in ends}
+        return body.turned(turns, self._arms)
 
     def _turns(self, body: Body) -> _Turns:
         """Return how the joints of the arms turn to be out of flesh, rad; none if they are."""
@@ -193,6 +219,11 @@ class _Search:
             return {}
         joints = (joint for side in SIDES for joint in _TURNED[side])
         return {joint: rotation_vector(difference(body.rotation(joint), out.rotation(joint))) for joint in joints}
+
+
+def _share(weight: float) -> float:
+    """Return how much of the turns is added to a goal: times its weight, it is 0 at both ends, and 1 midway."""
+    return 4.0 * (1.0 - weight)
 
 
 def _backward(elbow: Quat) -> float:

@@ -9,7 +9,7 @@ from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Skeleton, Transform
 from reactive_realizer.embodiment.feet import LEG_JOINTS, feet, legs, reach, walks
 from reactive_realizer.embodiment.joints import ROOT, SIDES
-from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, over, turned_further
+from reactive_realizer.embodiment.pose import Layer, LayerKind, checked, compose, over, turned_further
 from reactive_realizer.embodiment.quaternion import Quat
 from reactive_realizer.embodiment.vector import subtract
 from reactive_realizer.engines.animation.posture.stepping import Foot, FootAlternation, leading, lift, stepped
@@ -109,6 +109,12 @@ class FootPlanting:
         if self._lower is None or self._lower[0] != parts:
             self._lower = parts, reduce(_over, lower, _stand(self._start))
         return self._lower[1]
+
+
+def planted(body: Body, layer: Layer) -> Body:
+    """Return a body under a layer, with its feet as they step from where they stand to where the layer has them."""
+    layers = (Layer(LayerKind.BASE, body.pose, root=body.root), layer)
+    return compose(body.skeleton, (*layers, *FootPlanting(body.skeleton).layers(layers, GlobalTime(0.0)))).shown
 
 
 def _in_order(layers: Iterable[Layer]) -> tuple[list[Layer], list[Layer]]:
