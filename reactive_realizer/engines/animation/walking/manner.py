@@ -70,7 +70,7 @@ class Manner:
         """Return how long both feet are on the ground, relative to the time from step to step; negative in flight."""
         if not self.flies:
             return _WALKING_SUPPORT
-        return _WALKING_SUPPORT - 0.5 * share(speed, 1.2, 2.2) - 0.1 * share(speed, 2.8, 4.0)
+        return _WALKING_SUPPORT - 0.5 * share(speed, 1.2, 2.2) - 0.24 * share(speed, 2.8, 4.5)
 
     def period(self, speed: float) -> float:
         """Return the time from step to step at a speed, s."""

@@ -42,7 +42,7 @@ _LEAD = 0.6
 _WORTH = 0.1
 """A foot does not step to a print that is nearer than this, m, as long as the figure walks on."""
 
-_FURTHEST, _FURTHEST_RUNNING = 0.55, 0.45
+_FURTHEST, _FURTHEST_RUNNING = 0.55, 0.43
 """Distance to which a standing foot is left behind in a step of the other one, m."""
 
 _MOST_TURNED = 1.0
@@ -246,15 +246,18 @@ class Walker:
         if left < 4.0 * period:
             period = min(_LONGEST_STEP, max(_SHORTEST_STEP, left / count))
         support = manner.double_support(soon.speed)
+        flies, usual = support < 0.0, period
         last = count <= 2 or left <= 0.0
         if count == 1:
             swing = max(0.8 * _SHORTEST_STEP, left)
         else:
-            usual, period = period, self._in_reach(other, now, period, flies=support < 0.0)
+            period = self._in_reach(other, now, usual, flies=flies)
             last = last and period == usual
             swing = period * (1.0 - support)
         until = GlobalTime(now + swing)
-        target = self._home(foot, goal.place) if last else self._landing(number, until, period, support)
+        # In running, a print for a short stance would make the next step short, and so on.
+        stance = usual if flies else period
+        target = self._home(foot, goal.place) if last else self._landing(number, until, stance, support)
         if not last and not self._worth(foot, target):
             return
         forward = self._share_ahead(soon)
