@@ -91,4 +91,7 @@ def hem(cloth: Mesh, rim: Rim, normals: Array, color: Color, *, depth: float, th
         lambda p, n, out: p + out * 0.0016 - n * thickness,
         lambda p, n, out: p - out * depth - n * thickness * 1.3,
     ]
-    return band(cloth, rim, rows, normals, color, 0.35)
+    turned = band(cloth, rim, rows, normals, color, 0.35)
+    # It moves with the cloth beside it, not with the rim, or it would come through where the cloth bends.
+    turned.weights = cloth.weights[cKDTree(cloth.positions).query(turned.positions)[1]]
+    return turned

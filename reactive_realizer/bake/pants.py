@@ -29,7 +29,7 @@ class _Pattern:
         skin = body.positions[body.is_skin]
         between_legs = (np.abs(skin[:, 0]) < 0.006) & (skin[:, 1] > ankle + 0.3)
         return cls(
-            waist=hip + 0.05,
+            waist=hip + 0.02,
             hip=hip,
             crotch=skin[between_legs][:, 1].min(),
             knee=body.places["LeftLeg"][1],

@@ -9,7 +9,7 @@ from reactive_realizer.bake.body import Body, sum_columns
 from reactive_realizer.bake.characters import TopDesign
 from reactive_realizer.bake.cloth import SLIVER, Garment, Surface, band, cut_cloth, hem
 from reactive_realizer.bake.lowered_arms import LoweredArms
-from reactive_realizer.bake.mesh import Mesh, merge, neighbors, vertex_normals
+from reactive_realizer.bake.mesh import Mesh, merge, vertex_normals
 from reactive_realizer.bake.neckline import collar, neck_field, smooth_neck
 from reactive_realizer.bake.numeric import Array, Field, Mask, gaussian, smoothstep, value_noise
 from reactive_realizer.bake.rig import SIDES
@@ -17,9 +17,6 @@ from reactive_realizer.bake.surgery import Rim, RimRow, clip, collapse_rim, rela
 
 _ROWS, _SECTORS = 48, 64
 """Resolution of the drape around the torso."""
-
-_SPREAD_ROUNDS, _LEG_SHARE = 60, 0.62
-"""How far the weights of the legs are spread over the hem, and how much of them is kept."""
 
 _SHOULDER_ROUNDS = 60
 """Rounds of smoothing of the shoulders."""
@@ -66,26 +63,12 @@ class _Shirt:
         near = body.is_skin & (p[:, 1] > lines.hem - 0.2) & (p[:, 1] < lines.neck[1] + 0.12)
         self.skin = Surface(body, near & (np.abs(p[:, 0]) < lines.sleeve + 0.12))
         self.cloth = cut_cloth(body, lambda q: (q[:, 1] > lines.hem - 0.10) & (np.abs(q[:, 0]) < lines.sleeve + 0.08))
-        self.cloth.weights = self._hanging_weights(Surface(body, near).weights_for(self.cloth))
+        self.cloth.weights = Surface(body, near).weights_for(self.cloth)
         self.arm = sum_columns(self.cloth.weights, body.rig.columns("Arm", "Hand"))
         self.points = self.skin.push(relax(self.cloth.positions, self.cloth.triangles, 6), 0.006)
         on_torso = (self.arm < 0.35) & (self.points[:, 1] < lines.shoulder_height - 0.02)
         self.on_torso = np.where(on_torso)[0]
         self.axis_z = np.median(self.points[on_torso][:, 2])
-
-    def _hanging_weights(self, weights: Array) -> Array:
-        """Below the hips, the cloth spans both legs instead of following each: (v, joints)."""
-        legs = self.body.rig.columns("Leg")
-        heights, links = self.cloth.positions[:, 1], neighbors(self.cloth.triangles, len(weights))
-        links.data[:] = 1
-        spread = weights[:, legs]
-        for _ in range(_SPREAD_ROUNDS):
-            spread = 0.5 * spread + 0.5 * (links @ spread) / np.asarray(links.sum(1)).ravel()[:, None]
-        low = smoothstep(self.pattern.hip + 0.14, self.pattern.hip + 0.02, heights)[:, None]
-        kept = weights[:, legs] * (1 - low) + _LEG_SHARE * spread * low
-        weights[:, self.body.rig.index("Hips")] += (weights[:, legs] - kept).sum(1)
-        weights[:, legs] = kept
-        return weights
 
     def drape(self) -> None:
         """Hang the torso from chest and shoulder blades instead of clinging to the waist."""

@@ -9,13 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from PIL import Image
+from scipy.spatial import cKDTree
 
 from reactive_realizer.assembly.assets import Assets
 from reactive_realizer.binding.mouth_shapes import VISEMES
 from reactive_realizer.binding.viseme_binding import VisemeBinding
 from reactive_realizer.embodiment.face_mesh import FaceMesh
 from reactive_realizer.embodiment.face_names import BEYOND_ARKIT, OCULUS
+from reactive_realizer.embodiment.glb_arrays import GlbArrays
 
 AVATARS = Path(__file__).resolve().parents[2] / "reactive_realizer" / "assets" / "avatars"
 PATHS = [AVATARS / "female.glb", AVATARS / "male.glb"]
@@ -207,6 +210,28 @@ def test_hair_fades_out_at_its_ends(path: Path, avatar: Gltf) -> None:
     alpha = picture(path, avatar, hair["pbrMetallicRoughness"]["baseColorTexture"]["index"]).getchannel("A")
     faint = sum(alpha.histogram()[20:235]) / (alpha.width * alpha.height)
     assert 0.05 < faint < 0.5
+
+
+def test_the_trousers_under_the_shirt_move_as_it_does(path: Path) -> None:
+    """Otherwise they would come through it when the thighs rise."""
+    (shirt, shirt_shares), (trousers, shares) = worn(path, "Top"), worn(path, "Pants")
+    under = trousers[:, 1] > shirt[:, 1].min() + 0.005
+    nearest = cKDTree(shirt).query(trousers[under])[1]
+    assert np.percentile(abs(shares[under] - shirt_shares[nearest]).max(axis=1), 95) < 0.15
+
+
+def worn(path: Path, name: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The vertices of a garment, m, and the share of their motion that follows the left and the right leg, (V, 2)."""
+    arrays = GlbArrays(path)
+    nodes, bones = arrays.scene["nodes"], arrays.scene["skins"][0]["joints"]
+    mesh = next(mesh for mesh in arrays.scene["meshes"] if mesh["name"] == name)
+    place, weights, moved_by = (
+        arrays[mesh["primitives"][0]["attributes"][attribute]] for attribute in ("POSITION", "WEIGHTS_0", "JOINTS_0")
+    )
+    legs = [{side + joint for joint in LEG} for side in ("Left", "Right")]
+    of_leg = np.array([[nodes[bone]["name"] in leg for leg in legs] for bone in bones])
+    shares = np.einsum("vk,vkl->vl", weights / weights.sum(axis=1, keepdims=True), of_leg[moved_by])
+    return place.astype(float), shares
 
 
 def test_vrm_names_a_bone_for_every_joint(avatar: Gltf) -> None:

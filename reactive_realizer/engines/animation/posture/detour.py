@@ -51,7 +51,7 @@ SWING = MappingProxyType(
 )
 """A swing of the arms forward and aside, over thighs that rise; Euler angles, rad."""
 
-_RAISED = {joint: scale(angles, 0.8) for joint, angles in SWING.items()}
+_RAISED = {joint: scale(angles, 0.6) for joint, angles in SWING.items()}
 """The turns with which that search begins, as rotation vectors, rad."""
 
 _AWAY = 0.02
