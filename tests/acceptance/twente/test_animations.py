@@ -48,7 +48,7 @@ async def test_the_key_positions_of_an_animation_are_sync_points_that_others_nam
     ]
     assert told == [1.0, 2.0, 2.4, 2.4]
     assert angles(pilot, "r_shoulder")[2.0] == pytest.approx(-1.1, abs=0.02)
-    assert angles(pilot, "r_shoulder")[2.4] == pytest.approx(-0.1, abs=0.06)  # the hand keeps off the thigh
+    assert angles(pilot, "r_shoulder")[2.4] == pytest.approx(-0.1, abs=0.07)  # the hand keeps off the thigh
 
 
 async def test_an_unknown_sync_point_is_reported_with_the_known_ones(
