@@ -10,6 +10,7 @@ from typing import NamedTuple
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.bml.names import BML, BML_EXT
 from reactive_realizer.clock.units import GlobalTime
+from reactive_realizer.engine.answer_checks import expected
 from reactive_realizer.engine.asking_client import asked_by
 from reactive_realizer.engine.faults import UnknownParameter
 from reactive_realizer.errors import CreationFault, Fault, RealizerError, SchedulingFault, WarningType
@@ -309,12 +310,13 @@ class BlockPlanner:
 def _finish(unit: PlanUnit) -> Generator[int, None, Fault | None]:
     """Finish the planning of a unit; the fault if it cannot be played."""
     try:
-        yield from unit.finish_planning()
+        for work in unit.finish_planning():
+            yield expected(int, work)
     except RealizerError as problem:
         return problem.fault
-    except Exception as failure:
+    except (Exception, SystemExit, asyncio.CancelledError) as failure:  # of a plug-in; nothing here awaits
         logger.exception("the planning of '%s' failed", unit.behavior.id)
-        return WorkFailed(reason=str(failure))
+        return WorkFailed(reason=str(failure) or type(failure).__name__)
     return None
 
 

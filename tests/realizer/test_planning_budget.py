@@ -131,18 +131,25 @@ async def test_the_search_for_a_detour_is_spread_over_ticks(
     assert max(Counter(looks).values()) <= 12
 
 
+@pytest.mark.parametrize(
+    ("junk", "reason"),
+    [(ArithmeticError("no way"), "no way"), (SystemExit(), "SystemExit"), ("much", "it returned 'much'")],
+    ids=repr,
+)
 async def test_a_behavior_whose_planning_fails_later_is_left_out_with_the_reason(
-    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch
+    pilot: RealizerPilot, monkeypatch: pytest.MonkeyPatch, junk: object, reason: str
 ) -> None:
-    def fail(unit: PostureUnit) -> Iterator[int]:
+    def fail(unit: PostureUnit) -> Iterator[object]:
         yield 1
-        raise ArithmeticError("no way")
+        if isinstance(junk, BaseException):
+            raise junk
+        yield junk
 
     monkeypatch.setattr(PostureUnit, "finish_planning", fail)
     pilot.block("b", f'<postureShift id="p"><stance type="SITTING"/></postureShift>{NOD}')
     await pilot.advance(3)
     (warning,) = pilot.feedback.of("warningFeedback")
-    assert warning.text.endswith("its preparation failed: no way")
+    assert warning.text.endswith(f"its preparation failed: {reason}")
     assert pilot.feedback.reached("b:h:end")
 
 
