@@ -152,6 +152,18 @@ async def test_one_foot_is_always_on_the_ground_in_walking_and_both_leave_it_in_
     assert flights(pilot.bodies("alice")) > 10
 
 
+@pytest.mark.parametrize(("manner", "speed", "steps"), [("WALK", 1.2, 1.9), ("RUN", 4.0, 3.2)])
+async def test_a_figure_makes_as_many_steps_a_second_as_people(
+    either: RealizerPilot, manner: str, speed: float, steps: float
+) -> None:
+    either.block("b", go("0 14", manner=manner, speed=speed))
+    await either.advance(5)
+    bodies = either.bodies("alice")[100:200]
+    ahead = [subtract(*(body.transform(f"{side}_ankle").position for side in "lr"))[2] for body in bodies]
+    crossings = np.flatnonzero(np.diff(np.sign(ahead)))
+    assert 50.0 / np.diff(crossings).mean() == pytest.approx(steps, rel=0.1)
+
+
 @pytest.mark.parametrize(("manner", "lowest_together"), [("WALK", False), ("RUN", True)])
 async def test_the_pelvis_is_lowest_with_the_feet_apart_in_walking_and_over_a_foot_in_running(
     pilot: RealizerPilot, manner: str, lowest_together: bool
