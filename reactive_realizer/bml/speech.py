@@ -65,7 +65,7 @@ class Speech(Behavior):
 
     @property
     def open_points(self) -> bool:
-        """Whether the speech may have further sync points: its words, which only the voice counts, or marks in SSML."""
+        """Return whether sync points may be added later: the words, which only the voice counts, or marks in SSML."""
         return WORDS in self.extensions or any(each.behavior is not None for each in self.descriptions)
 
 

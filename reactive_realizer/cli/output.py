@@ -62,7 +62,7 @@ class WarningPrinter:
             print(f"{self._name(warning)}: {warning.text}", file=sys.stderr)
 
     def _name(self, warning: WarningFeedback) -> str:
-        """What a warning is about."""
+        """The id of what a warning is about, with the file of a block that has no id."""
         if warning.id == BLOCK:
             return self._take_unread(warning.text)
         path = self._files.get(warning.id.partition(":")[0])

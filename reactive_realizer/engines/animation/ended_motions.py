@@ -1,4 +1,4 @@
-"""What stays of motions that have ended: poses that persist, arms that wait, hands that return, and fading layers."""
+"""Shows what is left of ended motions: poses that persist, arms that wait, hands that return, and fading layers."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 

@@ -1,4 +1,4 @@
-"""What the feet of a figure do: it stands, walks to where locomotion goes, and turns by steps for other motions."""
+"""Moves the feet of a figure, which stands, walks to the goals of locomotion, and turns by steps for other motions."""
 
 from collections.abc import Iterator, Sequence
 
@@ -40,7 +40,7 @@ class Stepping:
 
     @property
     def active(self) -> bool:
-        """Whether the figure walks, or its feet are not at rest yet."""
+        """Return whether the figure walks, or its feet are not at rest yet."""
         return self._walk.active
 
     @property

@@ -37,7 +37,7 @@ class Walk:
 
     @property
     def active(self) -> bool:
-        """Whether the figure walks, or its feet are not at rest yet."""
+        """Return whether the figure walks, or its feet are not at rest yet."""
         return self._walker.active
 
     @property

@@ -1,4 +1,4 @@
-"""What a speech says of itself in attributes: whether its words are sync points, and how lively its character is."""
+"""Reads attributes of a speech: whether its words are sync points, and how lively its character is meanwhile."""
 
 from reactive_realizer.binding.asset_file import parse_boolean
 from reactive_realizer.bml.attribute_types import Float
