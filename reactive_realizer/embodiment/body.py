@@ -40,10 +40,14 @@ class Skeleton:
     parents: tuple[int, ...]
     offsets: tuple[Vec3, ...]
     _chains: dict[str, tuple[tuple[str, Vec3], ...]] = field(init=False, repr=False, compare=False)
+    _links: dict[str, tuple[str | None, Vec3]] = field(init=False, repr=False, compare=False)
     _hash: int = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_chains", {name: self._chain(i) for i, name in enumerate(self.joints)})
+        parents = (self.joints[parent] if parent >= 0 else None for parent in self.parents)
+        links = zip(parents, self.offsets, strict=True)
+        object.__setattr__(self, "_links", dict(zip(self.joints, links, strict=True)))
         object.__setattr__(self, "_hash", hash((self.joints, self.parents, self.offsets)))
 
     def __hash__(self) -> int:
@@ -57,7 +61,7 @@ class Skeleton:
         return tuple(reversed(links))
 
     def __contains__(self, joint: str) -> bool:
-        return joint in self._chains
+        return joint in self._links
 
     def links(self, joint: str) -> tuple[tuple[str, Vec3], ...]:
         """Return the joints from the root to a joint, both included, each with its offset.
@@ -81,7 +85,7 @@ class Skeleton:
         Raises:
             KeyError: no such joint.
         """
-        return self._chains[joint][-1][1]
+        return self._links[joint][1]
 
     def parent(self, joint: str) -> str | None:
         """Return the parent of a joint, None for the root.
@@ -89,8 +93,7 @@ class Skeleton:
         Raises:
             KeyError: no such joint.
         """
-        chain = self._chains[joint]
-        return chain[-2][0] if len(chain) > 1 else None
+        return self._links[joint][0]
 
     def carried(self, joints: Iterable[str]) -> frozenset[str]:
         """Return some joints, and all that are below them."""
@@ -122,7 +125,7 @@ class Body:
         return self._hash  # a key of caches of motions
 
     def transform(self, joint: str) -> Transform:
-        """Return the transform of a joint, by forward kinematics along its chain. Each joint is computed once.
+        """Return the transform of a joint, by forward kinematics from its parent. Each joint is computed once.
 
         Raises:
             KeyError: no such joint.
@@ -130,26 +133,23 @@ class Body:
         transforms = self._transforms
         if joint in transforms:
             return transforms[joint]
-        pose, (px, py, pz), (w, x, y, z) = self.pose, self.root, IDENTITY
-        # No other loop runs as often: add, rotate and multiply are written out, because calls take longer than they do.
-        for name, (ox, oy, oz) in self.skeleton.links(joint):
-            if name in transforms:
-                (px, py, pz), (w, x, y, z) = transforms[name]
-                continue
-            tx, ty, tz = 2.0 * (y * oz - z * oy), 2.0 * (z * ox - x * oz), 2.0 * (x * oy - y * ox)
-            px += ox + w * tx + y * tz - z * ty
-            py += oy + w * ty + z * tx - x * tz
-            pz += oz + w * tz + x * ty - y * tx
-            if name in pose:
-                qw, qx, qy, qz = pose[name]
-                w, x, y, z = (
-                    w * qw - x * qx - y * qy - z * qz,
-                    w * qx + x * qw + y * qz - z * qy,
-                    w * qy - x * qz + y * qw + z * qx,
-                    w * qz + x * qy - y * qx + z * qw,
-                )
-            transforms[name] = _transform(Transform, ((px, py, pz), (w, x, y, z)))
-        return transforms[joint]
+        parent, (ox, oy, oz) = self.skeleton._links[joint]
+        (px, py, pz), (w, x, y, z) = (self.root, IDENTITY) if parent is None else self.transform(parent)
+        # Nothing else runs as often: add, rotate and multiply are written out, because calls take longer than they do.
+        tx, ty, tz = 2.0 * (y * oz - z * oy), 2.0 * (z * ox - x * oz), 2.0 * (x * oy - y * ox)
+        px += ox + w * tx + y * tz - z * ty
+        py += oy + w * ty + z * tx - x * tz
+        pz += oz + w * tz + x * ty - y * tx
+        if joint in self.pose:
+            qw, qx, qy, qz = self.pose[joint]
+            w, x, y, z = (
+                w * qw - x * qx - y * qy - z * qz,
+                w * qx + x * qw + y * qz - z * qy,
+                w * qy - x * qz + y * qw + z * qx,
+                w * qz + x * qy - y * qx + z * qw,
+            )
+        transforms[joint] = transform = _transform(Transform, ((px, py, pz), (w, x, y, z)))
+        return transform
 
     def rotation(self, joint: str) -> Quat:
         """Return the rotation of a joint local to its parent."""
