@@ -91,7 +91,9 @@ def check_weights(weights: Mapping[str, float]) -> None:
     Raises:
         TypeError, ValueError: they are not finite numbers by name.
     """
-    if not isfinite(sum(expected(Mapping, weights).values())):
+    if type(weights) is not dict:  # which nearly all are
+        expected(Mapping, weights)
+    if not isfinite(sum(weights.values())):
         raise ValueError("a weight of its face is not a finite number")
 
 

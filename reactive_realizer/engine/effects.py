@@ -2,7 +2,8 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from types import MappingProxyType
 from typing import NamedTuple
 
 from reactive_realizer.bml.extensions import Emit
@@ -196,8 +197,7 @@ Request = (
 """Requests of an engine to the scheduler, carried out in the same tick."""
 
 
-@dataclass(frozen=True, slots=True)
-class Play:
+class Play(NamedTuple):
     """The effects of one engine in one round of a tick.
 
     Attributes:
@@ -213,8 +213,7 @@ class Play:
     requests: tuple[Request, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Output:
+class Output(NamedTuple):
     """The part of an engine in a frame.
 
     Attributes:
@@ -226,7 +225,7 @@ class Output:
     """
 
     layers: tuple[Layer, ...] = ()
-    face: Mapping[str, float] = field(default_factory=dict)
+    face: Mapping[str, float] = MappingProxyType({})
     eyes: Eyes | None = None
     effects: Play = Play()
     dynamics: Dynamics | None = None

@@ -3,7 +3,6 @@
 import logging
 from asyncio import CancelledError
 from collections.abc import AsyncGenerator, Awaitable, Callable, Collection
-from dataclasses import replace
 from typing import Final, TypeVar
 
 from reactive_realizer.bml.behavior import Behavior
@@ -150,7 +149,7 @@ class GuardedEngine:
             return Output(effects=self._drop_all(tick.time, failure))
         if output.eyes is None and output.dynamics is None:
             return output
-        return replace(output, eyes=self._guarded_eyes(output.eyes), dynamics=self._guarded_dynamics(output.dynamics))
+        return output._replace(eyes=self._guarded_eyes(output.eyes), dynamics=self._guarded_dynamics(output.dynamics))
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
         """Drop every unit."""
@@ -163,7 +162,7 @@ class GuardedEngine:
         left = [unit for unit in self._units if unit.live and unit not in done]
         for unit in left:
             unit.drop(time)
-        return replace(play, dropped=(*play.dropped, *(Dropped(unit, fault) for unit in left)))
+        return play._replace(dropped=(*play.dropped, *(Dropped(unit, fault) for unit in left)))
 
     def reset(self, time: GlobalTime) -> None:
         """Undo the lasting effects of behaviors."""

@@ -1,7 +1,6 @@
 """Each of these engines breaks its contract in one way, and the test for that fails."""
 
 from collections.abc import Callable, Collection
-from dataclasses import replace
 from itertools import count
 from types import MappingProxyType
 
@@ -32,7 +31,7 @@ class TickTimed(WaitEngine):
 
     def play(self, tick: Tick) -> Play:
         play = super().play(tick)
-        return replace(play, reached=tuple(each._replace(time=tick.time) for each in play.reached))
+        return play._replace(reached=tuple(each._replace(time=tick.time) for each in play.reached))
 
 
 class Repeating(WaitEngine):
@@ -40,7 +39,7 @@ class Repeating(WaitEngine):
 
     def play(self, tick: Tick) -> Play:
         play = super().play(tick)
-        return replace(play, reached=play.reached * 2)
+        return play._replace(reached=play.reached * 2)
 
 
 class Hasty(WaitEngine):
