@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import chain
 from pathlib import Path, PurePosixPath
 from stat import S_ISREG
@@ -19,26 +19,24 @@ class AssetIndex:
     """
 
     def __init__(self, folder: Path) -> None:
-        """Creates an index, which walks the folder on first use."""
+        """Creates an index, which walks the folder: this takes milliseconds, so it is not for the midst of a tick."""
         self._folder = folder
-        self._changed: dict[str, int] = {}
-        self._files: dict[str, list[Path]] = {}
-        self._by_suffix: dict[str, list[str]] = {}
+        self._walk()
 
     def names(self, suffix: str) -> Sequence[str]:
         """The names of the files with a suffix, such as ``.xml``, when the folder was last walked."""
-        if not self._changed:
-            self._walk()
         return self._by_suffix.get(suffix, ())
 
     def files(self, name: str) -> Sequence[Path]:
         """The files with a name, in any order. Links to folders are not followed."""
-        if not self._changed or any(_changed(folder) != at for folder, at in self._changed.items()):
+        if any(_changed(folder) != at for folder, at in self._changed.items()):
             self._walk()
         return self._files.get(name, ())
 
     def _walk(self) -> None:
-        self._changed, self._files, self._by_suffix = {}, {}, {}
+        self._changed: dict[str, int] = {}
+        self._files: dict[str, list[Path]] = {}
+        self._by_suffix: dict[str, list[str]] = {}
         for folder, _, files in os.walk(self._folder):
             self._changed[folder] = _changed(folder)
             for name in files:
@@ -57,8 +55,12 @@ def _changed(folder: str) -> int:
 
 PACKAGE_ASSETS = Path(__file__).parent.parent / "assets"
 
-_PACKAGE_INDEX = AssetIndex(PACKAGE_ASSETS)
-"""Shared by all scenes, because to walk the folder takes milliseconds."""
+
+@cache
+def _package_index() -> AssetIndex:
+    """The index of the package's assets, shared by all scenes."""
+    return AssetIndex(PACKAGE_ASSETS)
+
 
 _ANYWHERE = "**/"
 """Prefix of a name that may be in a folder of any depth."""
@@ -79,7 +81,8 @@ class Assets:
             if not folder.is_dir():
                 raise RealizerError(NoFolder(folder=str(folder)))
         self._folders = (*(folder.resolve() for folder in folders), PACKAGE_ASSETS)
-        self._indices = {folder: AssetIndex(folder) for folder in self._folders} | {PACKAGE_ASSETS: _PACKAGE_INDEX}
+        users = {folder: AssetIndex(folder) for folder in self._folders[:-1]}
+        self._indices = {**users, PACKAGE_ASSETS: _package_index()}
         # The same names are resolved again and again, and building paths takes longer than checking files.
         self._places = lru_cache(1000)(self._all_places)
 

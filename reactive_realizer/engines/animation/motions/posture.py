@@ -43,7 +43,7 @@ M. Schenkman et al., "Whole-body movements during rising to standing from sittin
 trunk is bent most when it leaves the seat.
 """
 
-_BODY = 300
+_BODY = 450
 """Further work of each body in a posture that was not known before: files may have to be read for it."""
 
 _MIDWAY = (0.25, 0.5, 0.75)

@@ -154,6 +154,8 @@ class PostureLibrary:
         """Return the files of poses that are those of captures; they take long to read."""
         found: list[Path] = []
         for pose in poses:
+            if _word(pose.lexeme) in LEXEMES:  # the package has files for these
+                continue
             with suppress(RealizerError):
                 file = self._file(stance, pose.lexeme)
                 found += [file] if file is not None and is_capture(file) else []

@@ -6,7 +6,7 @@ lasts longer; ankles may be placed relative to the hip, and the root relative to
 
 import logging
 from collections.abc import Iterable, Iterator, Mapping
-from functools import lru_cache
+from functools import cache, lru_cache, partial
 from pathlib import Path
 from types import MappingProxyType
 
@@ -66,7 +66,8 @@ class _Reader:
     """Reads the elements of one file."""
 
     def __init__(self, functions: Mapping[str, Function]) -> None:
-        self._functions = functions
+        # Most formulas of a file are "0".
+        self._parse = cache(partial(parse, functions=functions))
         self._characters = 0
 
     def animation(self, document: XmlElement, name: str) -> ProceduralAnimation:
@@ -172,7 +173,7 @@ class _Reader:
         if self._characters > LONGEST:
             raise asset_error(element, f"{name}: more than {LONGEST} characters of formulas in one file")
         try:
-            return parse(text, self._functions)
+            return self._parse(text)
         except RealizerError as problem:
             raise asset_error(element, f"{name}: {problem.fault.sentence}") from problem
 
