@@ -99,6 +99,17 @@ class Assets:
                 return found
         raise RealizerError(self._missing(name))
 
+    def folder(self, name: str) -> list[str]:
+        """The names of the files directly in a folder, as written or without its leading folders; none without one.
+
+        Raises:
+            RealizerError: "forbidden-path".
+        """
+        for root, path in self._places(name):
+            if path.is_dir() and path.resolve().is_relative_to(root.resolve()):
+                return [file.name for file in path.iterdir() if file.is_file()]
+        return []
+
     def _all_places(self, name: str) -> list[tuple[Path, Path]]:
         """The possible paths of a name, as written and without its leading folders, each with its root."""
         path = _relative(name)

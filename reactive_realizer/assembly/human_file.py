@@ -30,7 +30,11 @@ DEFAULT_ENGINES: Final = (
     "interrupt",
     "parameter_value_change",
 )
-DEFAULT_BINDINGS: Final[Mapping[str, str]] = {"gesture": "gesturebinding.xml", "face": "facebinding.xml"}
+DEFAULT_BINDINGS: Final[Mapping[str, str]] = {
+    "gesture": "gesturebinding.xml",
+    "face": "facebinding.xml",
+    "picture": "picturebinding.xml",
+}
 VISEMES: Final = "visemes"
 """The kind of the binding from sounds to the mouth; that of the package depends on the avatar."""
 SPEECH: Final = "speech"

@@ -163,6 +163,7 @@ def _character(
         binding_files(spec.bindings, file, assets),
         read_speech_binding(assets(spec.bindings[SPEECH]), assets, humanoid) if SPEECH in spec.bindings else None,
         mouth,
+        folder=assets.folder,
         trajectories={name: load("trajectories", name) for name in names("trajectories")},
         functions={name: load("functions", name) for name in names("functions")},
         motions={name: load("motions", name) for name in names("motions")},

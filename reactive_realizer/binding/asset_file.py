@@ -163,31 +163,40 @@ ENDS: Mapping[str, float] = MappingProxyType({"start": 0.0, "end": 1.0})
 """The sync points that every motion has, and their phases."""
 
 
-def sync_id(element: XmlElement) -> str:
-    """Return the id of a KeyPosition. References and feedback use it as a sync point.
+def sync_id(element: XmlElement, key: str = "id") -> str:
+    """Return the sync point that an element defines. References and feedback use it.
+
+    Args:
+        element: such as a KeyPosition.
+        key: the attribute with the name of the sync point.
 
     Raises:
-        RealizerError: "bad-asset": there is no id, or it is not a valid sync id (`is_sync_id`).
+        RealizerError: "bad-asset": there is no such attribute, or it is not a valid sync id (`is_sync_id`).
     """
-    name = attribute(element, "id")
+    name = attribute(element, key)
     if not is_sync_id(name):
         raise asset_error(
-            element, f"id='{name}' cannot name a sync point: it must be a valid attribute name other than id and xmlns"
+            element,
+            f"{key}='{name}' cannot name a sync point: it must be a valid attribute name other than id and xmlns",
         )
     return name
 
 
-def by_sync_id(elements: Iterable[XmlElement]) -> dict[str, XmlElement]:
-    """Return KeyPosition elements by id.
+def by_sync_id(elements: Iterable[XmlElement], key: str = "id") -> dict[str, XmlElement]:
+    """Return elements by the sync points that they define.
+
+    Args:
+        elements: such as KeyPositions.
+        key: the attribute with the name of the sync point.
 
     Raises:
-        RealizerError: "bad-asset": an id is missing or used twice.
+        RealizerError: "bad-asset": a name is missing, invalid or used twice.
     """
     found: dict[str, XmlElement] = {}
     for element in elements:
-        name = sync_id(element)
+        name = sync_id(element, key)
         if name in found:
-            raise asset_error(element, f"a second {element.tag} with id='{name}'")
+            raise asset_error(element, f"a second {element.tag} with {key}='{name}'")
         found[name] = element
     return found
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from reactive_realizer.binding.asset_file import XmlElement, asset_error, attribute
+from reactive_realizer.binding.asset_file import XmlElement, asset_error, attribute, read_xml
 from reactive_realizer.binding.unit_spec import UnitSpec
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import BML
@@ -27,6 +27,29 @@ def _numbers(parameters: Mapping[str, str]) -> Iterator[tuple[str, float]]:
             continue
         if math.isfinite(value):
             yield name, value
+
+
+def read_specs(path: Path, root: str, unit: str) -> Iterator[UnitSpec]:
+    """Yield the entries of a file, in order.
+
+    Args:
+        path: of the file.
+        root: required name of the root element.
+        unit: name of the elements of units; those of entries end in Spec.
+
+    Raises:
+        RealizerError: "bad-asset", with file, line and element.
+        OSError: the file cannot be read.
+    """
+    inside = ("constraints", "parametermap", "parameterdefaults", unit)
+    for element in read_xml(path, root):
+        if element.tag != f"{unit}Spec":
+            raise asset_error(element, f"known is {unit}Spec")
+        for child in element:
+            if child.tag not in inside:
+                raise asset_error(child, f"known are {', '.join(inside)}")
+        played_by = part(element, unit)
+        yield read_spec(element, attribute(played_by, "type"), played_by.get("filename"))
 
 
 def read_spec(element: XmlElement, unit: str, file: str | None, behavior: str | None = None) -> UnitSpec:

@@ -20,12 +20,15 @@ class Frame:
         root: position of HumanoidRoot in the world, m, (3,).
         rotations: (J, 4) unit quaternions w x y z local to the parent, in the order of the skeleton's joints.
         weights: morph weights, (M,) 0 to 1, in the order of the avatar's morphs.
+        pictures: names of files among the assets, of the pictures that show the character in place of its body, from
+            the lowest to the uppermost.
     """
 
     time: GlobalTime
     root: NDArray[np.float64]
     rotations: NDArray[np.float64]
     weights: NDArray[np.float64]
+    pictures: tuple[str, ...] = ()
 
 
 def rotation_array(skeleton: Skeleton, pose: JointRotations) -> NDArray[np.float64]:

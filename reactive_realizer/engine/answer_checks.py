@@ -1,12 +1,13 @@
 """Checks of what engines return: plug-ins can return anything, and a type checker may not have seen them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import Final, TypeVar, cast, get_args
 
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.humanoid import EyePose
+from reactive_realizer.embodiment.picture import Picture
 from reactive_realizer.embodiment.pose import Layer, LayerKind, check_rotations, checked
 from reactive_realizer.engine.effects import (
     ActivateBlock,
@@ -95,6 +96,20 @@ def check_weights(weights: Mapping[str, float]) -> None:
         expected(Mapping, weights)
     if not isfinite(sum(weights.values())):
         raise ValueError("a weight of its face is not a finite number")
+
+
+def check_pictures(pictures: Sequence[Picture]) -> None:
+    """Check pictures.
+
+    Raises:
+        TypeError: they are not names of files on layers.
+    """
+    if type(pictures) is not tuple:  # which nearly all are
+        expected((tuple, list), pictures)
+    for picture in pictures:
+        layer, file = expected(Picture, picture)
+        expected((float, int), layer)
+        expected(str, file)
 
 
 def check_eyes(pose: EyePose) -> EyePose:

@@ -1,6 +1,6 @@
 """The context from which engines are made."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
@@ -29,6 +29,10 @@ class LipSyncProvider(Protocol):
         ...
 
 
+def _no_files(folder: str) -> Sequence[str]:
+    return ()
+
+
 @dataclass(frozen=True, slots=True)
 class EngineContext:
     """The context of the engines of one character. The constructor of each engine takes it.
@@ -44,6 +48,7 @@ class EngineContext:
         bindings: the character's binding files, by kind, if it has any; entries of earlier files take precedence.
         speech_binding: the mouth by joints, which takes precedence over that of `bindings`; None for none.
         lip_sync: visemes of this character's speech.
+        folder: returns the names of the files in a folder among the assets, none if there is no such folder.
         time: the time of the present tick, s, for cells that change with time.
         trajectories: for changes of parameters, by name.
         functions: pure functions that formulas of animations may call besides the built-in ones, by name.
@@ -67,6 +72,7 @@ class EngineContext:
     bindings: Mapping[str, tuple[Path, ...]]
     speech_binding: MouthTables | None = None
     lip_sync: LipSyncProvider | None = None
+    folder: Callable[[str], Sequence[str]] = _no_files
     time: Source[GlobalTime] = field(default_factory=lambda: Source(Graph(), "time", GlobalTime(0.0)))
     trajectories: Mapping[str, TrajectoryFunction] = field(default_factory=dict)
     functions: Mapping[str, Callable[..., float]] = field(default_factory=dict)

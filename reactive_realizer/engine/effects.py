@@ -11,6 +11,7 @@ from reactive_realizer.bml.vocabulary import InterruptSpeech
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
+from reactive_realizer.embodiment.picture import Picture
 from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.errors import Fault
 from reactive_realizer.planunit.parameter import Parameter
@@ -222,6 +223,7 @@ class Output(NamedTuple):
         eyes: movement of the eyes, applied after the head.
         effects: of showing: units that failed, and warnings.
         dynamics: movement of joints by forces, applied before that of the eyes; None for a figure that none moves.
+        pictures: those that show the character in place of its body.
     """
 
     layers: tuple[Layer, ...] = ()
@@ -229,3 +231,4 @@ class Output(NamedTuple):
     eyes: Eyes | None = None
     effects: Play = Play()
     dynamics: Dynamics | None = None
+    pictures: tuple[Picture, ...] = ()

@@ -10,6 +10,7 @@ from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime, Time
 from reactive_realizer.embodiment.audio import AudioChange
 from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
+from reactive_realizer.embodiment.picture import Picture
 from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.embodiment.vector import Vec3
 from reactive_realizer.engine.effects import Dropped, Output, Play, Reached, ReportFall, Request, Warn
@@ -214,10 +215,11 @@ class DefaultEngine:
         )
 
     def show(self, tick: Tick) -> Output:
-        """Layers, face and eyes; a unit that fails is dropped."""
+        """Layers, face, eyes and pictures; a unit that fails is dropped."""
         layers, face, eyes, dynamics = self.layers(tick), self.face(tick), self.eyes(tick), self.dynamics(tick)
+        pictures = self.pictures(tick)
         effects = Play(dropped=self.player.take_dropped(), requests=self.warnings())
-        return Output(layers, face, eyes, effects, dynamics)
+        return Output(layers, face, eyes, effects, dynamics, pictures)
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:
         """Drop every unit; the points reached before the failure are returned too."""
@@ -253,6 +255,10 @@ class DefaultEngine:
     def dynamics(self, tick: Tick) -> Dynamics | None:
         """The movement of joints by forces in this tick, applied before that of the eyes."""
         return None
+
+    def pictures(self, tick: Tick) -> tuple[Picture, ...]:
+        """The pictures of this tick, those of one layer from the lowest to the uppermost."""
+        return ()
 
     def audio(self, tick: Tick) -> tuple[AudioChange, ...]:
         """The changes of audio since the last call."""

@@ -16,6 +16,7 @@ from reactive_realizer.engine.answer_checks import (
     check_body,
     check_drift,
     check_eyes,
+    check_pictures,
     check_play,
     check_weights,
     expected,
@@ -144,6 +145,7 @@ class GuardedEngine:
             output = expected(Output, self.engine.show(tick))
             check_layers(expected((tuple, list), output.layers))
             check_weights(output.face)
+            check_pictures(output.pictures)
             check_play(output.effects)
         except FAILURES as failure:
             return Output(effects=self._drop_all(tick.time, failure))

@@ -1,8 +1,9 @@
 """A character of the realizer."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from operator import attrgetter
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.frame import Frame
@@ -31,6 +32,10 @@ class Character:
         return [partial(self.humanoid.simulate, each.dynamics) for each in outputs if each.dynamics is not None]
 
     def look(self, outputs: Sequence[Output]) -> Frame:
-        """The frame after `move`, with the eyes and the face that its engines give."""
+        """The frame after `move`, with the eyes, the face and the pictures that its engines give."""
         eyes = next((output.eyes for output in outputs if output.eyes is not None), None)
-        return self.humanoid.look(eyes, [output.face for output in outputs])
+        frame = self.humanoid.look(eyes, [output.face for output in outputs])
+        pictures = [picture for output in outputs for picture in output.pictures]
+        if not pictures:
+            return frame
+        return replace(frame, pictures=tuple(each.file for each in sorted(pictures, key=attrgetter("layer"))))

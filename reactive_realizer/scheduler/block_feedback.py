@@ -9,7 +9,8 @@ from reactive_realizer.bml.names import BLOCK, Location
 from reactive_realizer.bml.sync_ref import OWN_BLOCK_POINTS
 from reactive_realizer.clock.units import BlockTime, GlobalTime, Time
 from reactive_realizer.engine.effects import Reached
-from reactive_realizer.errors import Fault, PlayingFault, SchedulingFault
+from reactive_realizer.engine.faults import UnknownParameter
+from reactive_realizer.errors import Fault, PlayingFault, SchedulingFault, WarningType
 from reactive_realizer.feedback.feedback_manager import FeedbackManager, ProgressOrder
 from reactive_realizer.feedback.messages import (
     BlockProgress,
@@ -32,6 +33,10 @@ _BLOCK_ORDER = {
     "start": (_BEFORE_BEHAVIORS, 0),
     **{sync: (_AFTER_BEHAVIORS, rank) for rank, sync in enumerate((*OWN_BLOCK_POINTS, "relax", "end"))},
 }
+
+
+_MINOR = (SchedulingFault, PlayingFault, UnknownParameter)
+_NOT_PLAYED = (WarningType.BEHAVIOR_TYPE_NOT_SUPPORTED, WarningType.CUSTOM_BEHAVIOUR_NOT_SUPPORTED)
 
 
 class BlockFeedback:
@@ -96,7 +101,8 @@ class BlockFeedback:
 
         That a behavior which accompanies others gives way, or cannot do its part, is no problem of a planner.
         """
-        gives_way = isinstance(fault, SchedulingFault | PlayingFault) and self._gives_way(character, id_)
+        minor = isinstance(fault, _MINOR) or fault.warning in _NOT_PLAYED
+        gives_way = minor and self._gives_way(character, id_)
         if fault.warning is not None and not gives_way:
             known = None if id_ == BLOCK else character
             located = fault if location is None else fault.located(location.line, location.column)

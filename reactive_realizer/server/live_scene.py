@@ -19,6 +19,7 @@ from reactive_realizer.server.capabilities import Found, found_for
 from reactive_realizer.server.client_limits import Clients
 from reactive_realizer.server.feedback_log import FeedbackLog
 from reactive_realizer.server.frame_stream import FrameStream
+from reactive_realizer.server.pictures_stream import PicturesStream
 from reactive_realizer.server.protocol import VERSION, Message
 from reactive_realizer.server.steps_stream import StepsStream
 from reactive_realizer.server.world_stream import WorldStream
@@ -71,7 +72,7 @@ class LiveScene:
         session: id of this run.
         ticker: source of the ticks.
         tick: number of the last tick.
-        feedback, sounds, frames, steps, world, board: the streams.
+        feedback, sounds, frames, steps, world, pictures, board: the streams.
         clients: the connected clients.
         found: files found at the start, for `capabilities_of`.
     """
@@ -88,6 +89,7 @@ class LiveScene:
         self.frames = FrameStream(self.realizer)
         self.steps = StepsStream(self.realizer)
         self.world = WorldStream(self.realizer)
+        self.pictures = PicturesStream(self.realizer)
         self.board = BoardStream(self.realizer.board, lambda: self.realizer.time)
         self.clients = Clients(self.limits.clients)
         self.found = found_for(scene) if found is None else found

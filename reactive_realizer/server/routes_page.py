@@ -1,4 +1,4 @@
-"""Routes of the page and the files that it loads: avatars, sounds, the schema."""
+"""Routes of the page and the files that it loads: avatars, pictures, sounds, the schema. No other assets are served."""
 
 import asyncio
 from io import BytesIO
@@ -9,6 +9,7 @@ from aiohttp import web
 from aiohttp.typedefs import Handler
 
 from reactive_realizer.binding.faults import NoAsset
+from reactive_realizer.embodiment.picture import is_picture
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.server.faults import NoClip, NoPage
 from reactive_realizer.server.keys import LIVE, TOKEN
@@ -46,12 +47,22 @@ async def protocol(_: web.Request) -> web.Response:
 
 @routes.get("/avatars/{name:.+}")
 async def avatar(request: web.Request) -> web.StreamResponse:
-    """The file of an avatar. No other assets are served."""
+    """The file of an avatar."""
     name = "avatars/" + request.match_info["name"]
     path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
     if path.suffix not in (".glb", ".vrm"):
         raise RealizerError(NoAsset(name=name))
     return web.FileResponse(path, headers={"Content-Type": "model/gltf-binary", **_CHECKED})
+
+
+@routes.get("/pictures/{name:.+}")
+async def picture(request: web.Request) -> web.StreamResponse:
+    """A picture that shows a character in place of its body."""
+    name = request.match_info["name"]
+    path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
+    if not is_picture(path.name):
+        raise RealizerError(NoAsset(name=name))
+    return web.FileResponse(path, headers=_CHECKED)
 
 
 @routes.get("/audio/{clip}.wav")

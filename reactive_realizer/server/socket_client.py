@@ -103,6 +103,8 @@ class SocketClient:
             stack.callback(self._live.steps.subscribe(self._queue.put))
         if Stream.WORLD in self._streams:
             stack.callback(self._live.world.subscribe(self._queue.put))
+        if Stream.PICTURES in self._streams:
+            stack.callback(self._live.pictures.subscribe(self._queue.put))
         if Stream.FRAMES in self._streams:
             stack.callback(self._live.frames.subscribe(self._show))
 

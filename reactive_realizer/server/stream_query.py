@@ -18,6 +18,7 @@ class Stream(StrEnum):
     BOARD = "board"
     STEPS = "steps"
     WORLD = "world"
+    PICTURES = "pictures"
 
 
 _DEFAULT = frozenset({Stream.FEEDBACK, Stream.AUDIO, Stream.FRAMES})

@@ -2,6 +2,7 @@
 
 from collections.abc import AsyncIterator
 from dataclasses import replace
+from pathlib import Path
 
 from reactive_realizer.assembly.assets import PACKAGE_ASSETS
 from reactive_realizer.engine.context import EngineContext
@@ -12,6 +13,7 @@ from reactive_realizer.engines.audio_engine import AudioEngine
 from reactive_realizer.engines.block_control import ActivateEngine, InterruptEngine
 from reactive_realizer.engines.face.face_engine import FaceEngine
 from reactive_realizer.engines.parameter_value_change import ParameterValueChangeEngine
+from reactive_realizer.engines.picture.picture_engine import PictureEngine
 from reactive_realizer.engines.speech.speech_engine import SpeechEngine
 from reactive_realizer.engines.speech.text_voice import TextVoice
 from reactive_realizer.engines.wait_engine import WaitEngine
@@ -53,6 +55,18 @@ class TestFace(EngineContract):
 
     def engine(self, context: EngineContext) -> Engine:
         return FaceEngine(context)
+
+
+class TestPicture(EngineContract):
+    elements = (
+        '<p:addImage xmlns:p="http://hmi.ewi.utwente.nl/pictureengine" id="i" fileName="face.png" start="1" end="3"/>',
+        '<p:setImage xmlns:p="http://hmi.ewi.utwente.nl/pictureengine" id="i" fileName="face.png"/>',
+    )
+    refused = ('<p:addImage xmlns:p="http://hmi.ewi.utwente.nl/pictureengine" id="i" fileName="face.txt"/>',)
+
+    def engine(self, context: EngineContext) -> Engine:
+        bindings = {"picture": (PACKAGE_ASSETS / "picturebinding.xml",)}
+        return PictureEngine(replace(context, bindings=bindings, asset=Path))
 
 
 class TestSpeech(EngineContract):

@@ -138,11 +138,15 @@ def on_air(tmp_path: Path) -> Open:
 
     @asynccontextmanager
     async def open_(
-        human: str = ALICE, security: Security = OPEN, performance: str | None = None, voice: str = "text"
+        human: str = ALICE,
+        security: Security = OPEN,
+        performance: str | None = None,
+        voice: str = "text",
+        assets: tuple[Path, ...] = (),
     ) -> AsyncIterator[OnAir]:
         file = tmp_path / "human.toml"
         file.write_text(human, encoding="utf-8")
-        async with open_scene(SceneOptions(file, voice)) as scene:
+        async with open_scene(SceneOptions(file, voice, assets)) as scene:
             live = LiveScene(scene, ManualClock(), performance)
             async with TestClient(TestServer(create_app(live, security))) as client:
                 yield OnAir(live, client, live.ticker.ticks())

@@ -152,6 +152,9 @@ async def test_the_avatars_of_hello_can_be_fetched(on_air: Open) -> None:
     ("path", "status"),
     [
         ("/avatars/nobody.glb", 404),
+        ("/pictures/humans/default.toml", 404),
+        ("/pictures/avatars/female.glb", 404),
+        ("/pictures/..%2f..%2ferrors.png", 400),
         ("/avatars/LICENSE.md", 404),
         ("/avatars/humans/default.toml", 404),
         ("/avatars/..%2f..%2ferrors.py", 400),

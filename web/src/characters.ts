@@ -83,6 +83,13 @@ export class Characters {
     }
   }
 
+  /** Hides the bodies of some characters, and shows those of all others. */
+  hide(hidden: { has(id: string): boolean }): void {
+    for (const { character, avatar } of this.list()) {
+      if (avatar !== null) avatar.object.visible = !hidden.has(character.id);
+    }
+  }
+
   /** World position of a bone, m; null when there is no such character or bone, or the avatar is not loaded. */
   bone(characterId: string, name: string): Position | null {
     return this.find(characterId)?.bone(name) ?? null;

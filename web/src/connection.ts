@@ -17,6 +17,7 @@ import type {
   Hello,
   Predict,
   Push,
+  Pictures,
   Ref,
   Refused,
   ServerMessage,
@@ -47,6 +48,7 @@ export interface ConnectionListener {
   onFeedback(feedback: Feedback): void;
   onAudio(message: AudioMessage): void;
   onBoard(board: Board): void;
+  onPictures(message: Pictures): void;
 }
 
 /** A request that the realizer refused, with its answer, or that lost its answer with the connection. */
@@ -151,6 +153,9 @@ export class Connection {
         break;
       case "board":
         this.listener.onBoard(message);
+        break;
+      case "pictures":
+        this.listener.onPictures(message);
         break;
       case "steps": // these come by a socket of their own
       case "targets": // these are for planners

@@ -5,7 +5,9 @@ import { type AudioMessage, Connection, type ConnectionListener } from "./connec
 import { element } from "./dom";
 import type { Shot } from "./framing";
 import { CaptionsPanel } from "./panels/captions";
-import type { Hello } from "./protocol";
+import { PicturesPanel } from "./panels/pictures";
+import { Pictures } from "./pictures";
+import type { Hello, Pictures as PicturesMessage } from "./protocol";
 import { type Quality, Viewport } from "./viewport";
 import { World, type WorldState } from "./world";
 
@@ -23,6 +25,8 @@ export class Film implements ConnectionListener {
   private readonly world: World;
   private readonly captions = new Captions(() => null);
   private readonly captionsPanel = new CaptionsPanel();
+  private readonly pictures = new Pictures();
+  private readonly picturesPanel = new PicturesPanel();
   private newest = -Infinity;
   private framed = false;
   private failure: Error | null = null;
@@ -57,6 +61,7 @@ export class Film implements ConnectionListener {
       await animationFrame();
     }
     this.captionsPanel.show(this.captions.at(time));
+    await this.showPictures(time);
     const figures = this.characters.figures();
     if (this.framed) this.viewport.frame(1000 * time, figures);
     else this.viewport.show(this.shot, figures);
@@ -86,6 +91,10 @@ export class Film implements ConnectionListener {
     this.captions.handle(message);
   }
 
+  onPictures(message: PicturesMessage): void {
+    this.pictures.handle(message);
+  }
+
   onSound(): void {
     // The sound is not played.
   }
@@ -96,6 +105,13 @@ export class Film implements ConnectionListener {
 
   onBoard(): void {
     // Nothing shows it.
+  }
+
+  private async showPictures(time: number): Promise<void> {
+    const pictures = this.pictures.at(time + SAME);
+    this.characters.hide(pictures);
+    this.picturesPanel.show(pictures);
+    await this.picturesPanel.loaded();
   }
 
   private pose(time: number): boolean {

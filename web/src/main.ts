@@ -8,8 +8,8 @@ import type { SpeechRecord } from "./speech";
 import { Viewer } from "./viewer";
 import { type Quality, qualityOf } from "./viewport";
 
-const STREAMS = "feedback,audio,sound,frames,board";
-const FILM_STREAMS = "audio,frames";
+const STREAMS = "feedback,audio,sound,frames,pictures,board";
+const FILM_STREAMS = "audio,frames,pictures";
 
 /** Asked for by a socket of its own, while its overlay is shown. */
 const STEPS_STREAMS = "steps";

@@ -68,6 +68,7 @@ export type ServerMessage =
   | Board
   | Steps
   | Targets
+  | Pictures
   | Accepted
   | Refused;
 /**
@@ -416,6 +417,15 @@ export interface Targets {
 export interface Standing {
   position: Position;
   heading: number;
+}
+/**
+ * The pictures that show a character in place of its body, from the lowest to the uppermost, until the next message about it; GET /pictures/FILE. Sent when they change to clients that request the stream pictures, first those of all characters that have some.
+ */
+export interface Pictures {
+  type: "pictures";
+  time: Seconds;
+  character: string;
+  files: string[];
 }
 /**
  * The message with this ref has taken effect; feedback reports its results.

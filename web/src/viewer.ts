@@ -12,9 +12,11 @@ import { CaptionsPanel } from "./panels/captions";
 import { FeedbackPanel } from "./panels/feedback";
 import { PegsPanel } from "./panels/pegs";
 import { PhysicsPanel } from "./panels/physics";
+import { PicturesPanel } from "./panels/pictures";
 import { ShotsPanel } from "./panels/shots";
 import type { StatusPanel } from "./panels/status";
-import type { Board, Feedback, Hello } from "./protocol";
+import { Pictures } from "./pictures";
+import type { Board, Feedback, Hello, Pictures as PicturesMessage } from "./protocol";
 import { SpeechPlayer } from "./speech";
 import { CameraReport, type Quality, Viewport } from "./viewport";
 import { World, type WorldState } from "./world";
@@ -34,6 +36,8 @@ export class Viewer implements ConnectionListener {
   private readonly cameraReport: CameraReport;
   private readonly captions = new Captions((id) => this.speech.position(id));
   private readonly captionsPanel = new CaptionsPanel();
+  private readonly pictures = new Pictures();
+  private readonly picturesPanel = new PicturesPanel();
   private readonly pegs = new PegsPanel();
   private readonly physics: PhysicsPanel;
   private readonly soundButton = element("sound", HTMLButtonElement);
@@ -115,6 +119,10 @@ export class Viewer implements ConnectionListener {
     this.captions.handle(message);
   }
 
+  onPictures(message: PicturesMessage): void {
+    this.pictures.handle(message);
+  }
+
   onBoard(board: Board): void {
     this.pegs.take(board);
   }
@@ -124,6 +132,7 @@ export class Viewer implements ConnectionListener {
     this.physics.assign(hello.characters);
     this.speech.clear();
     this.captions.clear();
+    this.pictures.clear();
     this.pegs.clear();
     this.feedback.mark(`Session ${hello.session.slice(0, 8)}`);
   }
@@ -134,6 +143,9 @@ export class Viewer implements ConnectionListener {
     if (time !== null) {
       this.characters.show(time, (id) => this.speech.frameTime(id));
       this.captionsPanel.show(this.captions.at(time));
+      const pictures = this.pictures.at(time);
+      this.picturesPanel.show(pictures);
+      this.characters.hide(pictures);
     }
     if (this.characters.complete) this.viewport.frame(page, this.characters.figures());
     this.viewport.draw(page);

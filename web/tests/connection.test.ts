@@ -13,6 +13,7 @@ const listener = {
   onFeedback: vi.fn(),
   onAudio: vi.fn(),
   onBoard: vi.fn(),
+  onPictures: vi.fn(),
 };
 
 function opened(): Connection {

@@ -1,0 +1,1 @@
+"""The engine of characters that are shown by pictures (thesis 10.1.3.1, PictureEngine)."""
