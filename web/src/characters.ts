@@ -83,11 +83,12 @@ export class Characters {
     }
   }
 
-  /** Hides the bodies of some characters, and shows those of all others. */
-  hide(hidden: { has(id: string): boolean }): void {
+  /** Hides the bodies of some characters, and shows those of all others; returns whether there are others. */
+  hide(hidden: { has(id: string): boolean }): boolean {
     for (const { character, avatar } of this.list()) {
       if (avatar !== null) avatar.object.visible = !hidden.has(character.id);
     }
+    return this.list().some(({ character }) => !hidden.has(character.id));
   }
 
   /** World position of a bone, m; null when there is no such character or bone, or the avatar is not loaded. */

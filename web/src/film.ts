@@ -109,8 +109,7 @@ export class Film implements ConnectionListener {
 
   private async showPictures(time: number): Promise<void> {
     const pictures = this.pictures.at(time + SAME);
-    this.characters.hide(pictures);
-    this.picturesPanel.show(pictures);
+    this.picturesPanel.show(pictures, this.characters.hide(pictures));
     await this.picturesPanel.loaded();
   }
 

@@ -144,8 +144,7 @@ export class Viewer implements ConnectionListener {
       this.characters.show(time, (id) => this.speech.frameTime(id));
       this.captionsPanel.show(this.captions.at(time));
       const pictures = this.pictures.at(time);
-      this.picturesPanel.show(pictures);
-      this.characters.hide(pictures);
+      this.picturesPanel.show(pictures, this.characters.hide(pictures));
     }
     if (this.characters.complete) this.viewport.frame(page, this.characters.figures());
     this.viewport.draw(page);

@@ -5,8 +5,12 @@ export class PicturesPanel {
   private readonly holder = element("pictures", HTMLElement);
   private readonly figures = new Map<string, PictureFigure>();
 
-  /** Shows the files of each character, from the lowest to the uppermost; called once an animation frame. */
-  show(files: Map<string, string[]>): void {
+  /**
+   * Shows the files of each character, from the lowest to the uppermost; called once an animation frame. With bodies in
+   * the scene, they are on its left.
+   */
+  show(files: Map<string, string[]>, bodies: boolean): void {
+    this.holder.classList.toggle("beside", bodies);
     for (const [character, figure] of this.figures) {
       if (files.has(character)) continue;
       figure.object.remove();
