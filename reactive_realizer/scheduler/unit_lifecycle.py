@@ -282,7 +282,7 @@ class UnitLifecycle:
 
     def _keep_order(self, units: Iterable[PlanUnit]) -> bool:
         begun = (unit for unit in units if unit.begun)
-        return any(unit.keep_order(partial(self._part, unit)) for unit in begun)
+        return any(unit.keep_order(partial(self._part, unit, overtaken=True)) for unit in begun)
 
     def _hold_back(self, units: Iterable[PlanUnit]) -> bool:
         """Have points not come before their bodies can reach them; whether any of them did."""
@@ -313,13 +313,17 @@ class UnitLifecycle:
                 kept = True
         return kept
 
-    def _part(self, unit: PlanUnit, point: SyncPoint) -> None:
-        """Give a point a peg of its own if its peg is pinned, or shared by a behavior that cannot wait for it."""
+    def _part(self, unit: PlanUnit, point: SyncPoint, *, overtaken: bool = False) -> None:
+        """Give a point a peg of its own if its peg is pinned, or shared by a behavior that cannot follow it.
+
+        A rigid behavior cannot wait for it; and if the point is overtaken, no behavior can come earlier than its body.
+        """
         block = self._blocks.get(unit.block)
         if block is None:
             return
+        held = overtaken and point.peg.earliest is not None
         timings = ((other, other.timing) for other in block.units if other is not unit)
-        others = (other for other, timing in timings if timing.rigid and not timing.instant)
+        others = (other for other, timing in timings if held or (timing.rigid and not timing.instant))
         if point.peg.pinned or any(each.peg is point.peg for other in others for each in other.points):
             point.peg = OffsetPeg(self._board.graph, str(unit.key(point.id)), point.peg, 0.0)
             self._board.add(unit.key(point.id), point.peg)

@@ -454,3 +454,22 @@ async def test_a_gaze_that_must_return_at_once_loses_its_tie(pilot: RealizerPilo
     await pilot.advance(3)
     (text,) = texts(pilot, "b:o")
     assert "there is too little time for o from relax to end" in text
+
+
+async def test_a_body_that_needs_time_does_not_hold_a_face_that_has_to_end(any_strategy: RealizerPilot) -> None:
+    any_strategy.predict("t", "go", 0.5)
+    any_strategy.predict("t", "hit", 3.0)
+    any_strategy.block(
+        "b",
+        '<faceLexeme id="f" lexeme="RAISE_BROWS" start="anticipators:t:go" end="anticipators:t:hit"/>'
+        '<postureShift id="s" end="f:attackPeak"><pose part="ARMS" lexeme="ARMS_CROSSED"/></postureShift>',
+    )
+    await any_strategy.advance(0.3)
+    any_strategy.predict("t", "go", 0.3)
+    await any_strategy.advance(0.1)
+    any_strategy.predict("t", "hit", 0.45)
+    await any_strategy.advance(1)
+    assert [any_strategy.feedback.time(f"b:f:{sync}") for sync in ("attackPeak", "end")] == [0.45, 0.45]
+    assert any_strategy.feedback.time("b:s:end") > 0.55, "the arms arrive as soon as they can"
+    (text,) = texts(any_strategy, "b:s")
+    assert "s:end = f:attackPeak no longer holds" in text
