@@ -18,7 +18,7 @@ from reactive_realizer.embodiment.body import Body, Skeleton
 from reactive_realizer.embodiment.flesh import Contacts, Flesh, Windows, flesh_of
 from reactive_realizer.embodiment.girth import FOREARM, Girth, girth_of
 from reactive_realizer.embodiment.joints import SIDES
-from reactive_realizer.embodiment.posed_arm import ALL_GROUPS, GROUPS, HAND, STAYING, ArmLinks, PosedArm, Shift
+from reactive_realizer.embodiment.posed_arm import HAND, STAYING, ArmLinks, PosedArm, Shift
 from reactive_realizer.embodiment.quaternion import Quat, slerp
 from reactive_realizer.embodiment.vector import ZERO, Vec3, add, scale
 
@@ -56,13 +56,17 @@ class Clearance:
     Args:
         skeleton: of the figure.
         girth: its thickness.
+
+    Attributes:
+        parts: its trunk, thighs and head.
+        arms: "l" and "r" -> the arm.
     """
 
     def __init__(self, skeleton: Skeleton, girth: Girth) -> None:
-        self._parts = flesh_of(skeleton, girth)
-        self._arms = [ArmLinks.of(skeleton, side, girth) for side in SIDES]
-        self._moving = skeleton.carried(links.shoulder for links in self._arms)
-        self._windows: dict[float, tuple[Windows, ...]] = {}
+        self.parts = flesh_of(skeleton, girth)
+        self.arms = {side: ArmLinks.of(skeleton, side, girth) for side in SIDES}
+        self._moving = skeleton.carried(links.shoulder for links in self.arms.values())
+        self._windows: dict[tuple[str, float], tuple[Windows, ...]] = {}
 
     @staticmethod
     @lru_cache(64)
@@ -76,48 +80,66 @@ class Clearance:
         Args:
             body: in any pose.
             away: distance from flesh that they keep, m.
-            shares: "l" and "r" -> how much of its way out an arm goes, 0 to 1.
+            shares: "l" and "r" -> how much of its way out an arm goes, 0 to 1; an arm that is left out stays.
         """
-        balls = [ball for links in self._arms for ball in links.balls(body)]
-        near: tuple[_Near, ...] = tuple([] for _ in self._arms)
-        for part, windows in zip(self._parts, self._windows.get(away) or self._watch(away), strict=True):
+        for part in self.parts:
             part.find(body)
-            if which := part.near(balls, windows):
-                part.pose(body)
-                for own in near:
-                    if groups := which & ALL_GROUPS:
-                        own.append((part, groups))
-                    which >>= len(GROUPS)
         turns: dict[str, Quat] = {}
-        for side, links, parts in zip(SIDES, self._arms, near, strict=True):
-            if parts and shares[side] > 0.0 and (look := _look(body, links, parts, away)) is not None:
-                turns |= _turns(body, look, shares[side])
+        for side, share in shares.items():
+            near = self._near(body, side, away) if share > 0.0 else ()
+            if near and (look := _look(body, self.arms[side], near, away)) is not None:
+                turns |= _turns(body, look, share)
         return body.turned(turns, self._moving) if turns else body
 
     def deepest(self, body: Body) -> float:
         """Return how deep a hand or a forearm is in flesh, m; if none is, at least -`MARGIN`."""
-        for part in self._parts:
+        for part in self.parts:
             part.find(body)
             part.pose(body)
         found = (
             each.depth
-            for links in self._arms
-            for part in self._parts
+            for links in self.arms.values()
+            for part in self.parts
             for each in part.contacts(
                 (*links.forearm_points(body), *links.hand_points(body)), links.radii, MARGIN
             ).values()
         )
         return max(found, default=-MARGIN)
 
-    def _watch(self, away: float) -> tuple[Windows, ...]:
-        """Return where the arms are near to each part from which they keep some distance, m."""
+    def room(self, body: Body, side: str, most: float) -> float:
+        """Return how far an arm may approach flesh until it is moved out of it, m; negative if it is.
+
+        Args:
+            body: in any pose.
+            side: of the arm, "l" or "r".
+            most: up to which it is measured, m.
+        """
+        for part in self.parts:
+            part.find(body)
+        look = _look(body, self.arms[side], self._near(body, side, most), most)
+        contacts = () if look is None else look.contacts.values()
+        return most - MARGIN - max((each.depth for found in contacts for each in found.values()), default=-MARGIN)
+
+    def _near(self, body: Body, side: str, away: float) -> "_Near":
+        """Return the parts that may be near to an arm, in the pose of a body in which they have been found."""
+        balls = self.arms[side].balls(body)
+        windows = self._windows.get((side, away)) or self._watch(side, away)
+        near = [
+            (part, groups) for part, own in zip(self.parts, windows, strict=True) if (groups := part.near(balls, own))
+        ]
+        for part, _ in near:
+            part.pose(body)
+        return near
+
+    def _watch(self, side: str, away: float) -> tuple[Windows, ...]:
+        """Return where an arm is near to each part from which it keeps some distance, m."""
+        links = self.arms[side]
         groups = [
             (reach, max((links.radii[index] for index in group), default=0.0))
-            for links in self._arms
             for reach, group in zip(links.reaches, links.groups, strict=True)
         ]
-        self._windows[away] = tuple(part.windows(groups, MARGIN + away) for part in self._parts)
-        return self._windows[away]
+        self._windows[side, away] = tuple(part.windows(groups, MARGIN + away) for part in self.parts)
+        return self._windows[side, away]
 
 
 _Near = list[tuple[Flesh, int]]

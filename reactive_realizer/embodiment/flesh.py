@@ -2,7 +2,7 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import atan2, floor
 from typing import NamedTuple
 
@@ -69,7 +69,12 @@ class Flesh(ABC):
         blunt: height of its ends, m; None for ends that are half balls.
         behind: how far the axis of the profile is behind this one, m.
         mirrored: whether it is the mirror image of the profile.
+
+    Attributes:
+        carriers: joints that carry it, each with how far from there what it carries is at most, m.
     """
+
+    carriers: Mapping[str, float]
 
     def __init__(
         self,
@@ -89,6 +94,7 @@ class Flesh(ABC):
         ends = (max(patch.farthest for patch in self._patches[row]) for row in (0, rows))
         self._ends = tuple(1.0 if blunt is None else farthest / blunt for farthest in ends)
         self._room, self._behind = 0.0, behind
+        self._thick = behind + (blunt or 0.0) + max(farthest for farthest, _ in self._rows)
         self._start, self._along, self._size = ZERO, UP, 1.0
         self._left, self._front = _LEFT, FORWARD
         self._bend, self._twist = (0.0, 0.0), 0.0
@@ -266,6 +272,7 @@ class Thigh(Flesh):
         self._joints = f"{side}_hip", f"{side}_knee"
         size = length(skeleton.offset(self._joints[1]))
         super().__init__(girth.thigh, size, behind=girth.behind, mirrored=side == "r")
+        self.carriers = {self._joints[0]: size + self._thick}
 
     def find(self, body: Body) -> None:
         """See `Flesh`."""
@@ -285,6 +292,7 @@ class Head(Flesh):
     def __init__(self, girth: Girth) -> None:
         super().__init__(girth.head, girth.head_size, _CAP)
         self._chin, self._height = girth.chin, girth.head_size
+        self.carriers = {HEAD[1]: length(self._chin) + self._height + self._thick}
 
     def find(self, body: Body) -> None:
         """See `Flesh`."""
@@ -308,6 +316,7 @@ class Trunk(Flesh):
         body = Body(skeleton)
         way = subtract(body.transform(self._neck).position, body.transform(ROOT).position)
         super().__init__(girth.trunk, max(length(way), _NEARLY_ZERO), _CAP)
+        self.carriers = {self._neck: self._thick}
         self._bent_at_rest = (0.0, 0.0)
         self.find(body)
         self._bent_at_rest = self._bend

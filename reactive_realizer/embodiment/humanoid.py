@@ -13,6 +13,7 @@ from reactive_realizer.embodiment.body import Body
 from reactive_realizer.embodiment.clearance import ALL_THE_WAY, Clearance
 from reactive_realizer.embodiment.face_map import NO_STAND_INS, FaceMap, StandIns
 from reactive_realizer.embodiment.frame import Frame, rotation_array
+from reactive_realizer.embodiment.free_arms import FreeArms
 from reactive_realizer.embodiment.inertialization import Inertialization
 from reactive_realizer.embodiment.joints import CARRYING, EYES, LEFT_ARM, RIGHT_ARM, ROOT, SIDES
 from reactive_realizer.embodiment.lids import with_lids
@@ -88,6 +89,7 @@ class Humanoid:
         self._inertialization = Inertialization(avatar.skeleton)
         self.clearance = Clearance.of(avatar)
         """Returns a body with its arms out of its flesh."""
+        self._free_arms = FreeArms(self.clearance, avatar.skeleton)
         self._aiming: frozenset[str] = frozenset()
         self._aimed = dict.fromkeys(SIDES, 0.0)
         self._limit: SpeedLimit | None = None
@@ -128,7 +130,7 @@ class Humanoid:
         shares = self._ways_out(time - self._time)
         # A figure that stands still is where it was.
         still = smooth is self._smooth and shares is ALL_THE_WAY
-        clear = self._clear if still else self.clearance(smooth, shares=shares)
+        clear = self._clear if still else self._free_arms(smooth, shares)
         self._passed, self._time, self._wanted = time - self._time, time, composed.shown
         if self._limit is None:
             # Nothing was shown before: the figure does not come from elsewhere, however far its body at rest is away.
