@@ -107,7 +107,8 @@ class Assets:
         """
         for root, path in self._places(name):
             if path.is_dir() and path.resolve().is_relative_to(root.resolve()):
-                return [file.name for file in path.iterdir() if file.is_file()]
+                with os.scandir(path) as entries:
+                    return [entry.name for entry in entries if entry.is_file()]
         return []
 
     def _all_places(self, name: str) -> list[tuple[Path, Path]]:

@@ -1,6 +1,5 @@
 """Pictures that show a character in place of its body."""
 
-from pathlib import PurePosixPath
 from typing import Final, NamedTuple
 
 PICTURE_SUFFIXES: Final = (".gif", ".jpeg", ".jpg", ".png", ".webp")
@@ -20,4 +19,4 @@ class Picture(NamedTuple):
 
 def is_picture(file: str) -> bool:
     """Return whether the suffix of a file's name is that of a picture."""
-    return PurePosixPath(file).suffix.lower() in PICTURE_SUFFIXES
+    return file.lower().endswith(PICTURE_SUFFIXES)

@@ -95,6 +95,8 @@ class PictureLibrary:
         self._binding = binding
         self._asset = asset
         self._folder = folder
+        # Sequences whose pictures were found; to look for hundreds of files takes milliseconds.
+        self._checked: dict[Path, PictureAnimation] = {}
         self._kinds: Mapping[str, Callable[[_Parameters], PictureAnimation]] = {
             "AddAnimationDirPU": self._of_folder,
             "AddAnimationXMLPU": self._of_file,
@@ -160,14 +162,20 @@ class PictureLibrary:
         if make is None:
             raise RealizerError(NoPictureUnit(unit=entry.unit, known=tuple(self._kinds)))
         animation = make(_Parameters(entry.unit, values))
-        check_pictures(animation.files, self._asset)
         return Shown(animation, _layer(values.get("layer", "0")), entry.unit == _BACKGROUND)
 
     def _single(self, parameters: "_Parameters") -> PictureAnimation:
-        return still(parameters.path("filePath", "fileName"))
+        file = parameters.path("filePath", "fileName")
+        check_pictures([file], self._asset)
+        return still(file)
 
     def _of_file(self, parameters: "_Parameters") -> PictureAnimation:
-        return read_animation(self._asset(parameters.path("filePath", "fileName")))
+        path = self._asset(parameters.path("filePath", "fileName"))
+        animation = read_animation(path)
+        if self._checked.get(path) is not animation:
+            check_pictures(animation.files, self._asset)
+            self._checked[path] = animation
+        return animation
 
     def _of_folder(self, parameters: "_Parameters") -> PictureAnimation:
         name = parameters.path("resourcePath", "directoryName")

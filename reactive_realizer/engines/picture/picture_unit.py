@@ -17,6 +17,7 @@ class PictureUnit(PlanUnit):
 
     def __init__(self, block: BlockKey, behavior: Behavior, animation: PictureAnimation, layer: float) -> None:
         super().__init__(block, behavior, timing_at(animation.points))
+        self.planning_work += len(animation.files) // 2  # each one may be looked for
         self._animation = animation
         self._layer = layer
         self._clock = PhaseClock(animation.phases)
