@@ -1,22 +1,20 @@
 import {
   Bone,
   Box3,
-  CustomBlending,
   type Material,
   Matrix4,
   Mesh,
   MeshLambertMaterial,
   MeshStandardMaterial,
   type Object3D,
-  OneFactor,
   Quaternion,
   Texture,
   Vector3,
-  ZeroFactor,
 } from "three";
 import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 import type { Pose } from "./binary";
+import { softenCutouts } from "./cutout";
 import type { Figure } from "./framing";
 import type { Character, MorphTarget, Position } from "./protocol";
 import { isSkinColor, Skin } from "./skin";
@@ -37,9 +35,6 @@ const LEGS = ["Left", "Right"].map((side) => ({
 
 /** Names of the materials inside a mouth and between lids, where the shadow map is too coarse; their colors have shade. */
 const INSIDE = /mouth|teeth|tongue|eyes?$/i;
-
-/** Alpha of the faintest hair that is drawn. */
-const FAINTEST = 0.08;
 
 /** One mesh's entry for a morph's weight: a face consists of several meshes that share their morphs. */
 interface MorphSlot {
@@ -84,6 +79,7 @@ export class Avatar {
     scene.updateMatrixWorld(true);
     const meshes = meshesOf(scene);
     for (const mesh of meshes) prepare(mesh, quality);
+    softenCutouts(meshes);
     const nodes = nodesOf(gltf);
     const bones = character.joints.map((name) => nodes.get(name));
     const slots = character.morphs.map((name) => {
@@ -214,24 +210,6 @@ function prepare(mesh: Mesh, quality: Quality): void {
   mesh.receiveShadow = ![material].flat().some(({ name }) => INSIDE.test(name));
   if (!(material instanceof MeshStandardMaterial)) return;
   if (quality === "low") mesh.material = plain(material);
-  else if (material.alphaTest > 0) soften(material);
-}
-
-/** Has the alpha of a cut-out material, such as hair, fade out over the samples of a pixel instead of ending sharply. */
-function soften(material: MeshStandardMaterial): void {
-  material.alphaToCoverage = true;
-  // Alpha decides which samples are drawn, and is not stored: the canvas stays opaque.
-  material.blending = CustomBlending;
-  material.blendSrc = OneFactor;
-  material.blendDst = ZeroFactor;
-  material.blendSrcAlpha = ZeroFactor;
-  material.blendDstAlpha = OneFactor;
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <alphatest_fragment>",
-      `if (diffuseColor.a < ${FAINTEST}) discard;`,
-    );
-  };
 }
 
 /** The same material with the cheapest lit shading. */

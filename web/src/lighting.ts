@@ -22,7 +22,7 @@ export function lightWell(scene: Scene, renderer: WebGLRenderer): void {
   scene.environmentIntensity = 0.42;
   generator.dispose();
   const fill = new DirectionalLight("#e6eeff", 0.55);
-  fill.position.set(-2.6, 1.8, 2.4);
+  fill.position.set(-1.9, 1.1, 2.6);
   scene.add(withShadow(keyLight(2.5)), fill, rimLight(1.9), new HemisphereLight("#ffffff", "#b9a898", 0.35));
 }
 
@@ -41,7 +41,7 @@ function rimLight(intensity: number): DirectionalLight {
 function withShadow(light: DirectionalLight): DirectionalLight {
   light.castShadow = true;
   light.shadow.mapSize.set(2048, 2048);
-  light.shadow.radius = 5;
+  light.shadow.radius = 2;
   light.shadow.bias = -0.0004;
   light.shadow.normalBias = 0.02;
   Object.assign(light.shadow.camera, { left: -2.5, right: 2.5, top: 2.5, bottom: -2.5, near: 0.5, far: 9 });
