@@ -221,6 +221,7 @@ MALE = Character(
         "nose/nose-volume-decr": 0.15,
         "cheek/{side}-cheek-bones-incr": 0.20,
         "eyes/{side}-eye-scale-incr": 0.20,
+        "eyes/{side}-eye-height2-incr": 0.35,
     },
     smile=0.12,
     skin=(168, 118, 90),

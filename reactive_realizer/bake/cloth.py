@@ -34,31 +34,43 @@ class Garment:
 class Surface:
     """A part of the skin that cloth keeps its distance from."""
 
-    def __init__(self, body: Body, part: Mask) -> None:
-        vertices = np.where(part)[0]
-        self._positions, self._normals = body.positions[vertices], body.normals[vertices]
-        self._weights = body.weights[vertices]
-        self._tree = cKDTree(self._positions)
+    def __init__(self, positions: Array, normals: Array, weights: Array) -> None:
+        """Take points of the skin: positions (n, 3) m, normals (n, 3), bone weights (n, joints)."""
+        self._positions, self._normals, self._weights = positions, normals, weights
+        self._tree = cKDTree(positions)
+
+    @classmethod
+    def of(cls, body: Body, part: Mask) -> "Surface":
+        """The vertices of a part (v,) of a body."""
+        return cls(body.positions[part], body.normals[part], body.weights[part])
 
     def push(self, points: Array, ease: float, limit: float = 0.05) -> Array:
         """Points (n, 3) moved outwards, by at most limit, to at least ease above the skin (m)."""
+        height, normals = self.height_of(points)
+        return points + normals * np.clip(ease - height, 0, limit)[:, None]
+
+    def lay(self, points: Array, ease: float, share: float | Array = 1.0) -> Array:
+        """Points (n, 3) moved outwards or inwards to ease above the skin (m), or by a share (n,) of the way."""
+        height, normals = self.height_of(points)
+        return points + normals * ((ease - height) * share)[:, None]
+
+    def height_of(self, points: Array) -> tuple[Array, Array]:
+        """The heights (n,) of points above the skin, m, and the normals (n, 3) of the skin there."""
         distances, nearest = self._tree.query(points, k=4)
         weights = inverse_distance_weights(distances, 2e-3)
         skin = blend_neighbors(self._positions, nearest, weights)
         normals = unit(blend_neighbors(self._normals, nearest, weights))
-        height = ((points - skin) * normals).sum(1)
-        return points + normals * np.clip(ease - height, 0, limit)[:, None]
+        return ((points - skin) * normals).sum(1), normals
 
-    def height_of(self, points: Array) -> tuple[Array, Array]:
-        """The heights (n,) of points above the skin, m, and the normals (n, 3) of the skin there."""
-        nearest = self._tree.query(points, k=4)[1]
-        normals = unit(self._normals[nearest].mean(1))
-        return ((points - self._positions[nearest].mean(1)) * normals).sum(1), normals
+    def weights_at(self, points: Array) -> Array:
+        """Bone weights (n, joints) of points (n, 3): those of the skin nearby."""
+        distances, nearest = self._tree.query(points, k=6)
+        weights = blend_neighbors(self._weights, nearest, inverse_distance_weights(distances, 0.004))
+        return weights / weights.sum(1, keepdims=True)
 
     def weights_for(self, cloth: Mesh, rounds: int = 3) -> Array:
         """Bone weights (v, joints) of a cloth: those of the skin nearby, smoothed (the helper's own have outliers)."""
-        distances, nearest = self._tree.query(cloth.positions, k=6)
-        weights = blend_neighbors(self._weights, nearest, inverse_distance_weights(distances, 0.004))
+        weights = self.weights_at(cloth.positions)
         links = neighbors(cloth.triangles, len(cloth.positions))
         links.data[:] = 1
         degree = np.asarray(links.sum(1)).ravel()[:, None]

@@ -9,7 +9,7 @@ from reactive_realizer.bake.mesh import Mesh
 from reactive_realizer.bake.numeric import Array, fibonacci_sphere, smoothstep, unit
 from reactive_realizer.bake.strands import Strands
 
-_ROOTS = 2400
+_ROOTS = 2200
 _POINTS = 5
 _CROWN = unit(np.array([0, 0.82, -0.57]))
 

@@ -18,11 +18,11 @@ def make_materials(glb: Glb, who: Character, head_skin: SkinTextures, body_skin:
     strands, strands_normal = (glb.texture(picture, CLAMP) for picture in hair())
     fabric = glb.texture(fabric_normal())
     lash = glb.texture(lashes(), CLAMP)
-    clear_coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.11}}
+    clear_coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 1.0, "clearcoatRoughnessFactor": 0.10}}
     materials = [
         _skin(glb, "Skin", head_skin),
         _material("Mouth", 0.75, **_specular(0.0)),
-        _material("Teeth", 0.3, doubleSided=True, **_specular(0.5)),
+        _material("Teeth", 0.4, doubleSided=True, **_specular(0.2)),
         _material("Tongue", 0.45, **_specular(0.4)),
         _material("Lashes", 0.9, lash, alphaMode="BLEND", doubleSided=True),
         _skin(glb, "BodySkin", body_skin),

@@ -42,7 +42,7 @@ def build_pants(body: Body, shirt_hem: float) -> Garment:
     """Trousers that reach under a shirt whose hem is at this height (m)."""
     lines, design = _Pattern.for_body(body), body.character.pants
     legs = body.is_skin & (body.positions[:, 1] < lines.waist + 0.1) & (body.weight_of("Arm", "Hand") < 0.1)
-    skin = Surface(body, legs)
+    skin = Surface.of(body, legs)
     cloth = cut_cloth(body, lambda p: (p[:, 1] < lines.waist + 0.06) & (np.abs(p[:, 0]) < 0.35))
     cloth.weights = _weights(body, cloth, legs)
     p = skin.push(relax(cloth.positions, cloth.triangles, 8), 0.005)
@@ -66,7 +66,7 @@ def build_pants(body: Body, shirt_hem: float) -> Garment:
 
 def _weights(body: Body, cloth: Mesh, legs: Mask) -> Array:
     """Each leg follows the skin of its own side: across the crotch the other leg is nearer."""
-    sides = [Surface(body, legs & (body.positions[:, 0] * sign > -0.004)).weights_for(cloth) for _, sign in SIDES]
+    sides = [Surface.of(body, legs & (body.positions[:, 0] * sign > -0.004)).weights_for(cloth) for _, sign in SIDES]
     x = cloth.positions[:, :1]
     return np.where(np.abs(x) < 0.004, (sides[0] + sides[1]) / 2, np.where(x > 0, sides[0], sides[1]))
 

@@ -9,8 +9,8 @@ from reactive_realizer.bake.body import Body
 from reactive_realizer.bake.glb import INDICES, VERTICES, Glb, Json
 from reactive_realizer.bake.mesh import Mesh, vertex_normals
 from reactive_realizer.bake.numeric import Array, Indices, unit
+from reactive_realizer.bake.rig import BONES
 
-_BONES = 4
 _SMALLEST_MOVE = 4e-5
 """Vertices that a blend shape moves less are left out, m."""
 
@@ -137,7 +137,7 @@ class PrimitiveWriter:
 
 def _strongest_bones(weights: Array) -> tuple[Indices, Indices]:
     """The four strongest bones of each vertex and their shares of 255."""
-    bones = np.argsort(-weights, 1, kind="stable")[:, :_BONES]
+    bones = np.argsort(-weights, 1, kind="stable")[:, :BONES]
     strongest = np.take_along_axis(weights, bones, 1)
     strongest /= strongest.sum(1, keepdims=True)
     shares = np.round(strongest * 255).astype(int)

@@ -9,6 +9,9 @@ import numpy as np
 from reactive_realizer.bake.numeric import Array, Indices, unit
 
 _PREFIX = "mixamorig:"
+BONES = 4
+"""The most bones that move a vertex in the file."""
+
 SIDES = (("Left", 1), ("Right", -1))
 """Name of a side, and the sign of its x."""
 

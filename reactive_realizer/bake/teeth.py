@@ -28,10 +28,10 @@ _EDGE_SHARE = 0.28
 _WIDTH = 0.050
 """Breadth of the upper row at the molars, m. MakeHuman's is wider than its mouth, and stands in the cheeks."""
 
-_SIDE_SHADE = 0.72
+_SIDE_SHADE = 0.55
 """Share of the light from the front that lips and cheeks keep from the side teeth."""
 
-_SHADE_TINT = np.array([1, 1.25, 1.4])
+_SHADE_TINT = np.array([1, 1.35, 1.45])
 """Exponents of red, green and blue in shade: what light there is comes from lips, gums and tongue."""
 
 _OVERJET = 0.0022
@@ -181,7 +181,7 @@ class _Row:
         behind = self._arch.front - points[..., 2:]
         beside = np.abs(points[..., :1])
         reached = smoothstep(0.027, 0.002, behind) * (1 - _SIDE_SHADE * smoothstep(0.009, 0.019, beside))
-        shade = self._light * (0.05 + 0.95 * reached) ** _SHADE_TINT
+        shade = self._light * (0.14 + 0.86 * reached) ** _SHADE_TINT
         count = points.size // 3
         weights = np.tile(self._weights, (count, 1))
         colors = (color * shade).reshape(-1, 3)

@@ -24,7 +24,7 @@ def fabric_normal(size: int = 512) -> bytes:
     folds, creases = band(np.hypot(kx / 1.0, ky / 1.6), 3.2, 2.2), band(np.hypot(kx, ky), 14, 7)
     y, x = np.mgrid[0:size, 0:size]
     weave = np.sin(x * 2 * np.pi / 4) * 0.5 + np.sin(y * 2 * np.pi / 4) * 0.5
-    return jpeg(picture(normal_map(folds * 2.6 + creases * 0.22 + weave * 0.12, 0.5)), 84)
+    return jpeg(picture(normal_map(folds * 2.6 + creases * 0.22 + weave * 0.06, 0.5)), 84)
 
 
 def lashes(width: int = 512, height: int = 64) -> bytes:

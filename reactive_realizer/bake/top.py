@@ -10,7 +10,7 @@ from reactive_realizer.bake.characters import TopDesign
 from reactive_realizer.bake.cloth import SLIVER, Garment, Surface, band, cut_cloth, hem
 from reactive_realizer.bake.lowered_arms import LoweredArms
 from reactive_realizer.bake.mesh import Mesh, merge, vertex_normals
-from reactive_realizer.bake.neckline import collar, neck_field, smooth_neck
+from reactive_realizer.bake.neckline import collar, even_rim, neck_field, smooth_neck
 from reactive_realizer.bake.numeric import Array, Field, Mask, gaussian, smoothstep, value_noise
 from reactive_realizer.bake.rig import SIDES
 from reactive_realizer.bake.surgery import Rim, RimRow, clip, collapse_rim, relax, rim_vertices, rims
@@ -61,9 +61,9 @@ class _Shirt:
         self.pattern = _Pattern.for_body(body, self.design)
         lines, p = self.pattern, body.positions
         near = body.is_skin & (p[:, 1] > lines.hem - 0.2) & (p[:, 1] < lines.neck[1] + 0.12)
-        self.skin = Surface(body, near & (np.abs(p[:, 0]) < lines.sleeve + 0.12))
+        self.skin = Surface.of(body, near & (np.abs(p[:, 0]) < lines.sleeve + 0.12))
         self.cloth = cut_cloth(body, lambda q: (q[:, 1] > lines.hem - 0.10) & (np.abs(q[:, 0]) < lines.sleeve + 0.08))
-        self.cloth.weights = Surface(body, near).weights_for(self.cloth)
+        self.cloth.weights = Surface.of(body, near).weights_for(self.cloth)
         self.arm = sum_columns(self.cloth.weights, body.rig.columns("Arm", "Hand"))
         self.points = self.skin.push(relax(self.cloth.positions, self.cloth.triangles, 6), 0.006)
         on_torso = (self.arm < 0.35) & (self.points[:, 1] < lines.shoulder_height - 0.02)
@@ -163,7 +163,8 @@ class _Shirt:
     def _edging(self, cloth: Mesh, rim: Rim, normals: Array) -> Mesh:
         middle = cloth.positions[rim_vertices(rim)].mean(0)
         if middle[1] > self.pattern.neck[1] - 0.15 and abs(middle[0]) < 0.05:
-            return collar(cloth, rim, normals, self.design, self.skin)
+            even_rim(cloth, rim, self.body)
+            return collar(cloth, rim, self.body)
         if middle[1] < self.pattern.hem + 0.05:
             return hem(cloth, rim, normals, self.design.color, depth=0.03, thickness=0.0026)
         return _cuff(cloth, rim, normals, self.design)
@@ -188,8 +189,8 @@ def build_top(body: Body) -> tuple[Garment, float]:
     shirt.wrinkle()
     lines = shirt.pattern
     neck = neck_field(body, shirt.design.neckline)
-    smooth_neck(shirt.cloth, neck, body, shirt.skin)
     shirt.settle()
+    smooth_neck(shirt.cloth, neck, body)
 
     def covers(points: Array) -> Mask:
         on_trunk = (neck(points) > 0.003) & (points[:, 1] > lines.hem + 0.02)
