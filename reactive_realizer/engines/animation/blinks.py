@@ -32,6 +32,9 @@ _DEPTH = (0.45, 0.8)
 _SHORTEST = 0.5
 """Shortest time from one blink to the next, s."""
 
+_LONGEST = 4.0
+"""Longest time, relative to the mean (ours): one much longer gap would dominate the intervals of some minutes."""
+
 
 class Blinks:
     """Blinks at random intervals, and one with each large turn of gaze.
@@ -47,10 +50,8 @@ class Blinks:
             random: the generator.
             per_minute: rate of the blinks at random intervals, above 0.
         """
-        middle = math.log(60.0 / per_minute) - 0.5 * _SPREAD * _SPREAD
-        self._episodes = Episodes(
-            1.0, lambda: (max(_SHORTEST, random.lognormvariate(middle, _SPREAD)), _drawn_depth(random))
-        )
+        mean = 60.0 / per_minute
+        self._episodes = Episodes(1.0, lambda: (_drawn_interval(random, mean), _drawn_depth(random)))
         self._requested = -math.inf
 
     def request_blink(self, time: float) -> None:
@@ -74,6 +75,11 @@ class Blinks:
         # The first episode starts with open eyes. However often they come, blinks take their time.
         own = now.what * _shut((advanced - now.since) / pace) if now.since > 0.0 and pace > 0.0 else 0.0
         return max(own, _shut(time - self._requested))
+
+
+def _drawn_interval(random: Random, mean: float) -> float:
+    middle = math.log(mean) - 0.5 * _SPREAD * _SPREAD
+    return max(_SHORTEST, min(_LONGEST * mean, random.lognormvariate(middle, _SPREAD)))
 
 
 def _drawn_depth(random: Random) -> float:

@@ -47,7 +47,7 @@ class Walk:
 
     def moves(self, unit: LocomotionUnit, now: GlobalTime) -> Iterator[MovePoints]:
         """Yield the moves of the end of a locomotion."""
-        yield from unit.look(now, self._humanoid.place, self._walker.progression.speed)
+        yield from unit.look(now, self._humanoid.place, self._walker.progression.velocity)
 
     def layers(self, now: GlobalTime, goal: Goal | None, rest: Body) -> tuple[Layer, ...]:
         """Move the figure to where it is at a time, and return the layers of its walking.
@@ -65,6 +65,7 @@ class Walk:
         self._walking = min(1.0, max(0.0, self._walking + (change if moving else -change)))
         if self._walker.arrived and not self._walking:
             self._walker.rest()
+            self._carriage = Carriage()
         if not self.active:
             self.feet = ()
             return ()

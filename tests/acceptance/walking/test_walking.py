@@ -152,10 +152,13 @@ async def test_one_foot_is_always_on_the_ground_in_walking_and_both_leave_it_in_
     assert flights(pilot.bodies("alice")) > 10
 
 
-@pytest.mark.parametrize(("manner", "speed", "steps"), [("WALK", 1.2, 1.9), ("RUN", 4.0, 3.2)])
+@pytest.mark.parametrize(
+    ("manner", "speed", "steps"), [("WALK", 1.2, 1.9), ("WALK", 1.8, 2.4), ("RUN", 2.8, 2.75), ("RUN", 4.0, 2.9)]
+)
 async def test_a_figure_makes_as_many_steps_a_second_as_people(
     either: RealizerPilot, manner: str, speed: float, steps: float
 ) -> None:
+    """Running: P. R. Cavanagh and R. Kram (Medicine and Science in Sports and Exercise 21, 1989)."""
     either.block("b", go("0 14", manner=manner, speed=speed))
     await either.advance(5)
     bodies = either.bodies("alice")[100:200]
@@ -352,6 +355,49 @@ async def test_a_figure_in_a_hurry_that_turns_does_not_sink_to_its_knees(either:
     assert worst_motion(either.bodies("alice"))["wrist_m_s2"] < 60.0
 
 
+async def test_a_foot_comes_down_within_reach_of_its_leg_while_a_figure_speeds_up(pilot: RealizerPilot) -> None:
+    pilot.block("b", go("-3.27 -2.82", manner="RUN", speed=3.3))
+    await pilot.advance(5)
+    assert foot_slide(pilot.bodies("alice")) < 0.005
+
+
+async def test_a_figure_that_first_runs_on_the_other_way_arrives_when_it_says_and_goes_no_faster(
+    either: RealizerPilot,
+) -> None:
+    either.block("a", go("3.4 -0.9", manner="RUN", speed=2.8))
+    await either.advance(1.7)
+    either.block("b", go("-3.3 0", speed=1.5), composition="REPLACE")
+    await either.advance(0.3)
+    expected = either.feedback.predicted("b:w:end")
+    await either.advance(7)
+    shown = either.bodies("alice")
+    assert either.feedback.time("b:w:end") == pytest.approx(expected, abs=0.3)
+    assert place(shown[round(50 * either.feedback.time("b:w:end")) + 1]) == pytest.approx((-3.3, 0.0), abs=0.05)
+    assert speeds(shown)[140:].max() < 1.5 * 1.1
+    assert foot_slide(shown) < 0.005
+    assert either.feedback.warnings == []
+
+
+async def test_a_second_way_soon_after_the_first_one_begins_without_a_jump(either: RealizerPilot) -> None:
+    ways = '<locomotion id="to" target="0 1"/><locomotion id="on" target="0 2" start="to:end+0.56"/>'
+    either.block("b", ways)
+    await either.advance(4)
+    since = round(50 * either.feedback.time("b:on:start"))
+    change = np.diff(pelvis(either.bodies("alice"))[since - 10 : since + 4], n=2, axis=0) / 0.02**2
+    assert np.linalg.norm(change, axis=1).max() < 4.0
+
+
+async def test_a_figure_that_comes_in_a_curve_faces_the_way_that_it_came_and_turns_no_further(
+    pilot: RealizerPilot,
+) -> None:
+    pilot.block("a", go("-2.07 1.52", manner="RUN", speed=3.37))
+    await pilot.advance(1.39)
+    pilot.block("b", go("-3.14 1.55", manner="RUN", speed=3.47), composition="REPLACE")
+    await pilot.advance(5)
+    assert pilot.feedback.time("b:w:end") < 3.5
+    assert min(heading(body) for body in pilot.bodies("alice")) > -95.0
+
+
 async def test_a_figure_that_is_there_before_its_time_comes_to_rest_smoothly(pilot: RealizerPilot) -> None:
     await pilot.advance(0.34)
     pilot.block("a", go("-2.07 1.52", manner="RUN", speed=3.37))
@@ -365,7 +411,7 @@ async def test_a_figure_that_is_there_before_its_time_comes_to_rest_smoothly(pil
 async def test_a_figure_that_is_late_comes_to_rest_smoothly(pilot: RealizerPilot) -> None:
     pilot.block("a", go("2.79 -3.19", manner="RUN", speed=3.0))
     await pilot.advance(1.86)
-    pilot.block("b", go("-0.79 -0.36", manner="STRAFE", speed=0.7), composition="REPLACE")
+    pilot.block("b", go("-0.79 -0.36", manner="STRAFE", speed=0.7, syncs='end="3.8"'), composition="REPLACE")
     await pilot.advance(7)
     assert pilot.feedback.warnings == [("b:w", "EXECUTION_FAILURE")]
     ways = np.diff(pelvis(pilot.bodies("alice"))[:, [0, 2]], n=2, axis=0) / 0.02**2

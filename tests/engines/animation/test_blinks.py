@@ -18,10 +18,10 @@ def lids(blinks: Blinks, time: float) -> float:
     return blinks.closed(time, time, 1.0)
 
 
-def begins(blinks: Blinks, seconds: float) -> list[float]:
-    """The times at which the lids begin to close, s."""
-    frames = [lids(blinks, i / 100) for i in range(round(seconds * 100))]
-    return [i / 100 for i, (a, b) in enumerate(pairwise(frames)) if a == 0.0 < b]
+def begins(blinks: Blinks, seconds: float, rate: int = 100) -> list[float]:
+    """The times at which the lids begin to close, s, in frames at a rate, 1/s."""
+    frames = [lids(blinks, i / rate) for i in range(round(seconds * rate))]
+    return [i / rate for i, (a, b) in enumerate(pairwise(frames)) if a == 0.0 < b]
 
 
 @pytest.mark.parametrize("rate", [5.0, 17.0, 26.0])
@@ -33,6 +33,13 @@ def test_intervals_have_the_mean_of_the_rate_most_are_short_and_a_few_long(rate:
     assert max(gaps) > 2.5 * mean(gaps)
     assert min(gaps) >= 0.49
     assert stdev(gaps) / mean(gaps) == pytest.approx(0.7, abs=0.15)
+
+
+def test_intervals_vary_as_much_in_any_five_minutes() -> None:
+    """Their coefficient of variation is about 0.7 in each: no gap is so long that it dominates them."""
+    sessions = (begins(Blinks(Random(seed), 17.0), 300.0, 20) for seed in range(40))
+    gaps = ([after - before for before, after in pairwise(times)] for times in sessions)
+    assert all(0.5 < stdev(each) / mean(each) < 0.9 for each in gaps)
 
 
 def test_some_blinks_close_the_lids_only_in_part() -> None:

@@ -37,9 +37,10 @@ from reactive_realizer.engines.animation.walking.destination import (
     Way,
     WayBlocked,
     destination,
+    ground_of,
 )
 from reactive_realizer.engines.animation.walking.manner import FASTEST, MANNERS, SLOWEST, Manner, is_at
-from reactive_realizer.engines.animation.walking.progression import Goal
+from reactive_realizer.engines.animation.walking.progression import ASIDE, Goal
 from reactive_realizer.errors import RealizerError
 from reactive_realizer.pegboard.peg_key import BlockKey
 from reactive_realizer.planunit.parameter import Range, spelled
@@ -59,6 +60,9 @@ _MOVED = 0.02
 
 _EARLIER = 0.05
 """Difference of an expected end that is worth moving it, s."""
+
+_LATE = 0.15
+"""The same for one that comes later because the figure went another way before, s."""
 
 _SHORT = 0.3
 """A figure that stops farther than this from where it should be says so, m."""
@@ -105,26 +109,42 @@ class LocomotionMotionUnit(MotionUnit):
         speed = self.parameters[SPEED]
         return self.manner if speed <= self.manner.top else replace(self.manner, top=speed)
 
-    def look(self, place: Place) -> None:
-        """Look where the target and obstacles are now, from a place on the way; one that is blocked now stays."""
+    def look(self, place: Place) -> bool:
+        """Look where the target and obstacles are now, from a place on the way; one that is blocked now stays.
+
+        Returns:
+            Whether the target, or what is to be faced there, has moved. The heading with which a figure comes changes
+            with the way that it takes, until it is near.
+        """
         try:
             new = self._leads.way_from(place)
         except WayBlocked:
-            return
+            return False
         if new is None:
-            return
+            return False
         self.corners = new.corners
-        way, turn = _way(self.place, new.place), between_headings(self.place.heading, new.place.heading)
-        if way > _MOVED or abs(turn) > _MOVED:
+        turned = abs(between_headings(self.place.heading, new.place.heading)) > _MOVED
+        faces = self._leads.facing(ground_of(new.place)) is not None
+        moved = _way(self.place, new.place) > _MOVED or (faces and turned)
+        if moved or (turned and new.length > ASIDE):
             self.place = new.place
+        return moved
 
-    def duration(self, start: Place, moving: float = 0.0) -> float:
-        """Return the preferred duration from a place, s; a figure that moves already needs no time to start."""
+    def duration(self, start: Place, velocity: Ground = (0.0, 0.0)) -> float:
+        """Return the preferred duration from a place, s.
+
+        Args:
+            start: the place.
+            velocity: of the figure there in the world, x and z, m/s. One that already goes that way needs no time to
+                start, and one that goes another way needs more.
+        """
         way, turns = self._turns(start)
         if is_at(way, sum(map(abs, turns))):
             return 0.0
-        whole = self.top.duration(way, max(SLOWEST, self.parameters[SPEED]), turns)
-        return max(0.6, whole - 0.4 * min(1.0, moving)) if moving else whole
+        speed = max(SLOWEST, self.parameters[SPEED])
+        direction, _ = Way(start, self.corners, self.place).directions
+        gone = velocity[0] * math.sin(direction) + velocity[1] * math.cos(direction)
+        return self.top.duration(way, speed, turns, gone)
 
     def _shortest(self, start: Place) -> float:
         way, turns = self._turns(start)
@@ -137,7 +157,7 @@ class LocomotionMotionUnit(MotionUnit):
     def _turns(self, start: Place) -> tuple[float, tuple[float, float]]:
         """Return the way to go from a place, m, and the turns at its beginning and at its end, rad."""
         way = Way(start, self.corners, self.place)
-        if not self.manner.ahead or way.length < 0.6:
+        if not self.manner.ahead or way.length < ASIDE:
             return way.length, (0.0, between_headings(start.heading, self.place.heading))
         first, last = way.directions
         return way.length, (between_headings(start.heading, first), between_headings(last, self.place.heading))
@@ -164,7 +184,7 @@ class LocomotionUnit(AnimationUnit):
         super().__init__(block, behavior, candidates, context)
         self._tied = "end" in behavior.syncs
         self._looked = GlobalTime(-inf)
-        self._expected: tuple[Place, float] | None = None
+        self._speed: float | None = None
         self._corners: tuple[Ground, ...] = ()
         self._end: Time = None
 
@@ -176,30 +196,34 @@ class LocomotionUnit(AnimationUnit):
         look = GlobalTime(self._looked + _LOOKS_EVERY)
         return look if due is None else min(due, look)
 
-    def look(self, now: GlobalTime, place: Place, speed: float) -> Iterator[MovePoints]:
+    def look(self, now: GlobalTime, place: Place, velocity: Ground) -> Iterator[MovePoints]:
         """Look at the target; yield the move of the end to when the figure will arrive, if that has changed.
 
         Args:
             now: s.
             place: of the figure.
-            speed: of the figure, m/s.
+            velocity: of the figure in the world, x and z, m/s.
         """
         if not self.begun or now < self._looked + _LOOKS_EVERY - RESOLUTION:
             return
         self._looked = now
-        self.motion.look(place)
-        expected, corners = (self.motion.place, self.motion.parameters[SPEED]), self.motion.corners
+        moved, speed, corners = self.motion.look(place), self.motion.parameters[SPEED], self.motion.corners
         passed = len(self._corners) - len(corners)
         another = passed < 0 or self._corners[passed:] != corners
         self._corners = corners
         end = self.time("end")
-        if another or expected != self._expected or (end is None and self._end is None):
-            self._expected = expected
-            self._end = GlobalTime(now + self.motion.duration(place, speed))
+        arrives = GlobalTime(now + self.motion.duration(place, velocity))
+        if another or moved or speed != self._speed or self._late(now, arrives):
+            self._speed, self._end = speed, arrives
             if not self._tied and end is not None and abs(end - self._end) > _EARLIER:
                 yield MovePoints(self, {"end": self._end}, now)
         if end is not None and self.motion.misses(place, end - now):
             self.motion.fault = PlaceNotReached(way=_way(place, self.motion.place))
+
+    def _late(self, now: GlobalTime, arrives: GlobalTime) -> bool:
+        """Return whether a figure that is not about to arrive yet will arrive later than was expected."""
+        end = self._end
+        return end is None or (end - now > self.motion.manner.braking and arrives - end > _LATE)
 
     def goal(self) -> Goal | None:
         """Return where it goes now, and when it arrives."""

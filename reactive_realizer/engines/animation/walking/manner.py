@@ -23,6 +23,9 @@ _TWO_STEPS = 0.8
 _WALKING_SUPPORT = 0.2
 """How long both feet are on the ground in walking, relative to the time from step to step."""
 
+_TOO_FAST_TO_WALK = (2.1, 2.8)
+"""Speeds from which a figure that stops to run still flies a little, and from which as in running, m/s."""
+
 _USUAL_CADENCE, _USUAL_SPEED, _CADENCE_POWER = 1.9, 1.2, 0.58
 """Steps per second at a speed, m/s, and how they grow with speed: D. W. Grieve and R. J. Gear, "The relationships
 between length of stride, step frequency, time of swing and speed of walking" (Ergonomics 9, 1966)."""
@@ -50,15 +53,17 @@ class Manner:
     flies: bool = False
     slowest_step: float = 0.6
 
-    def duration(self, way: float, speed: float, turns: tuple[float, float] = (0.0, 0.0)) -> float:
+    def duration(self, way: float, speed: float, turns: tuple[float, float] = (0.0, 0.0), gone: float = 0.0) -> float:
         """Return the preferred duration of a way, s.
 
         Args:
             way: its length, m.
             speed: when the figure has got up to speed, m/s.
             turns: at its beginning and at its end, rad.
+            gone: speed with which the figure already goes that way, m/s; negative if it goes back.
         """
-        usual = way / speed + _STARTING + 0.5 * self.braking if way > 0.0 else _STARTING
+        starting = _STARTING * (1.0 - gone / speed)
+        usual = way / speed + starting + 0.5 * self.braking if way > 0.0 else _STARTING
         return max(_TWO_STEPS, usual + sum(map(turning_time, turns)))
 
     def shortest(self, way: float, turns: tuple[float, float] = (0.0, 0.0)) -> float:
@@ -69,7 +74,7 @@ class Manner:
     def double_support(self, speed: float) -> float:
         """Return how long both feet are on the ground, relative to the time from step to step; negative in flight."""
         if not self.flies:
-            return _WALKING_SUPPORT
+            return _WALKING_SUPPORT - 0.5 * share(speed, *_TOO_FAST_TO_WALK)
         return _WALKING_SUPPORT - 0.5 * share(speed, 1.2, 2.2) - 0.24 * share(speed, 2.8, 4.5)
 
     def period(self, speed: float) -> float:

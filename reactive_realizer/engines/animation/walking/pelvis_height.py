@@ -66,7 +66,7 @@ class PelvisHeight:
         square, beyond = apart * apart, max(0.0, wide - _WIDEST)
         ran = _BOUNCE * math.exp(-square / _BOUNCING) + _CROUCH
         down = _BENT * walking + (1.0 - running) * _PENDULUM * square + running * ran
-        self._swung = min(_DEEPEST, down + _WIDE_PENDULUM * beyond * beyond)
+        self._swung = min(_DEEPEST, down + _WIDE_PENDULUM * walking * beyond * beyond)
         return self._swung
 
     def lowered(self, passed: float, body: Body, feet: Sequence[FootPose], walking: float) -> float:

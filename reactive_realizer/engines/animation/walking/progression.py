@@ -20,7 +20,7 @@ _YAW_AGILITY = 8.0
 _YAW_GAIN = 2.5
 """The same for the speed of a turn, and that speed per angle that is left, 1/s."""
 
-_ASIDE = 0.6
+ASIDE = 0.6
 """A figure does not turn into a way that is shorter, m: it steps aside or back."""
 
 _SETTLING, _GENTLE, _GENTLE_TURN = 0.3, 4.0, 8.0
@@ -29,6 +29,9 @@ to these, m/s^2 and rad/s^2."""
 
 _HARDEST = 10.0 / math.sqrt(3.0)
 """Highest acceleration of a way with the least jerk, relative to the way over the square of its time."""
+
+_PEAK = 1.875
+"""Highest speed of such a way, relative to the mean."""
 
 _PASSED = 0.1
 """A figure that is nearer to a corner of its way turns into the next leg, m."""
@@ -123,9 +126,14 @@ class Progression:
         return ((self.x.at, self.z.at), *self._corners, (x, z))
 
     @property
+    def velocity(self) -> Ground:
+        """Over the ground, x and z in the world, m/s."""
+        return self.x.speed, self.z.speed
+
+    @property
     def speed(self) -> float:
         """Over the ground, m/s."""
-        return math.hypot(self.x.speed, self.z.speed)
+        return math.hypot(*self.velocity)
 
     @property
     def forward(self) -> tuple[float, float]:
@@ -168,15 +176,15 @@ class Progression:
         (goal_x, _, goal_z), manner = goal.place.position, goal.manner
         points = self._points_ahead((goal_x, goal_z))
         way, direction, last = length_of(points), _heading(*points[:2]), _heading(*points[-2:])
-        faces = manner.ahead and way > _ASIDE
+        faces = manner.ahead and way > ASIDE
         tail = turning_time(between_headings(last, goal.place.heading)) if faces else 0.0
         left = goal.end - tail - now
         arrives = left <= manner.braking and not self._corners
         if arrives and not self._arriving:
-            self._arriving = True
             if (needed := self._arrival_time(goal, way)) > left:
                 left, goal = needed, replace(goal, end=GlobalTime(now + needed + tail))
                 self.goal = goal
+            self._arriving = arrives = left <= manner.braking
         if arrives:
             self.x = self.x.arriving(goal_x, left, passed)
             self.z = self.z.arriving(goal_z, left, passed)
@@ -190,9 +198,12 @@ class Progression:
 
     def _arrival_time(self, goal: Goal, way: float) -> float:
         """Return the least time in which the figure comes to rest at its goal, over the way that is left, m; s."""
-        turn = abs(between_headings(self.heading.at, goal.place.heading))
+        turn, manner = abs(between_headings(self.heading.at, goal.place.heading)), goal.manner
         settling = math.sqrt(_HARDEST * max(way / _GENTLE, turn / _GENTLE_TURN))
-        return max(min(1.875 * way / goal.manner.top, goal.manner.braking), min(_SETTLING, settling))
+        fastest = _PEAK * way / manner.top
+        if fastest > manner.braking:
+            fastest = way / manner.top + 0.5 * manner.braking
+        return max(fastest, min(_SETTLING, settling))
 
     def _points_ahead(self, goal: Ground) -> tuple[Ground, ...]:
         """Return the present point, and the corners that lie ahead with the goal."""

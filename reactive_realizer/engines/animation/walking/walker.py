@@ -1,6 +1,5 @@
 """Carries a figure over the ground on two feet."""
 
-import math
 from typing import NamedTuple
 
 from reactive_realizer.clock.units import GlobalTime
@@ -9,17 +8,20 @@ from reactive_realizer.embodiment.feet import reach, walks
 from reactive_realizer.embodiment.joints import SIDES
 from reactive_realizer.embodiment.place import Footprint, Place, PlannedSteps, between_headings
 from reactive_realizer.embodiment.quaternion import conjugate, multiply
-from reactive_realizer.embodiment.vector import Vec3, distance, subtract
+from reactive_realizer.embodiment.vector import Vec3, distance
 from reactive_realizer.engines.animation.easing import share
-from reactive_realizer.engines.animation.walking.manner import WALK
+from reactive_realizer.engines.animation.walking.footfall import (
+    is_worth_a_step,
+    landing,
+    share_ahead,
+    share_aside,
+    time_in_reach,
+)
 from reactive_realizer.engines.animation.walking.progression import Goal, Progression
 from reactive_realizer.engines.animation.walking.walking_foot import FootShape, WalkingFoot
 
-_CLOSE = 0.055
-"""Distance of an ankle from the middle in walking ahead, m: the prints are nearer to a line than at rest."""
-
-_ROLLING = 0.08
-"""How much nearer a foot comes down to the hips than it leaves them in walking ahead, m: its sole rolls meanwhile."""
+_STEP = 0.02
+"""Longest step of time from one look at the feet to the next, s."""
 
 _STRIKE = -0.3
 """Pitch of a foot that touches the ground in walking ahead, rad: its heel comes first."""
@@ -32,24 +34,6 @@ _SHIFTING = 0.06
 
 _SHORTEST_STEP, _LONGEST_STEP = 0.34, 0.75
 """Bounds of the time from step to step, s, where a figure has to arrive in time."""
-
-_HIP_TURN = 0.25
-"""Way of a foot at the side of a figure that turns, m/rad."""
-
-_LEAD = 0.6
-"""How far a foot goes ahead in a step aside, as a share of the way of the figure from step to step."""
-
-_WORTH = 0.1
-"""A foot does not step to a print that is nearer than this, m, as long as the figure walks on."""
-
-_FURTHEST, _FURTHEST_RUNNING = 0.55, 0.43
-"""Distance to which a standing foot is left behind in a step of the other one, m."""
-
-_MOST_TURNED = 1.0
-"""How far a figure turns away from a standing foot meanwhile, rad."""
-
-_PARTS = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)
-"""Parts of a step that are tried for that: a figure that speeds up or turns takes shorter steps."""
 
 _HOME, _HOME_TURN = 0.002, 0.01
 """A foot nearer than this to where it stands at rest is there, m and rad."""
@@ -116,7 +100,7 @@ class Walker:
         if not self.feet:
             return
         while since < now - 1e-9:
-            time = GlobalTime(min(now, since + 0.02))
+            time = GlobalTime(min(now, since + _STEP))
             self.progression.advance(since, time)
             self._step(time)
             since = time
@@ -195,8 +179,10 @@ class Walker:
             return
         foot, other = self.feet[number], self.feet[1 - number]
         busy = max(other.landed, self._set_out_at + _SHIFTING) if other.swing is None else other.swing.until
-        support = goal.manner.double_support(self.progression.speed)
-        if foot.swing is None and now >= busy + support * self._period:
+        speed = self.progression.speed
+        support = goal.manner.double_support(speed)
+        period = self._period if support > 0.0 else goal.manner.period(speed)
+        if foot.swing is None and now + 0.5 * _STEP >= busy + support * period:
             self._lift_off(number, goal, now)
 
     def _next_foot(self, goal: Goal, now: GlobalTime) -> int | None:
@@ -217,7 +203,7 @@ class Walker:
     def _alternate(self) -> int:
         if self._last is not None:
             return 1 - self._last
-        aside = self._aside(self._now, 0.5)
+        aside = share_aside(self.progression, self._now, 0.5)
         if abs(aside) > 0.5:
             return 0 if aside > 0.0 else 1
         left, right = (self.progression.place.to_own(foot.print.position)[2] for foot in self.feet)
@@ -251,61 +237,17 @@ class Walker:
         if count == 1:
             swing = max(0.8 * _SHORTEST_STEP, left)
         else:
-            period = self._in_reach(other, now, usual, flies=flies)
+            period = time_in_reach(self.progression, other, now, usual, flies=flies)
             last = last and period == usual
             swing = period * (1.0 - support)
         until = GlobalTime(now + swing)
         # In running, a print for a short stance would make the next step short, and so on.
         stance = usual if flies else period
-        target = self._home(foot, goal.place) if last else self._landing(number, until, stance, support)
-        if not last and not self._worth(foot, target):
-            return
-        forward = self._share_ahead(soon)
-        foot.lift_off(target, now, until, 0.0 if last else _STRIKE * forward)
+        if last:
+            target = self._home(foot, goal.place)
+        else:
+            target = landing(self.progression, foot.shape, now, until, stance, support)
+            if not is_worth_a_step(foot, target):
+                return
+        foot.lift_off(target, now, until, 0.0 if last else _STRIKE * share_ahead(soon))
         self._last, self._period = number, period
-
-    def _in_reach(self, standing: WalkingFoot, now: GlobalTime, period: float, *, flies: bool) -> float:
-        """Return the time of a step, shorter if the foot that stands meanwhile would be left behind too far, s."""
-        furthest = _FURTHEST_RUNNING if flies else _FURTHEST
-        for part in _PARTS:
-            place = self.progression.ahead(now, GlobalTime(now + part * period)).place
-            x, _, z = subtract(standing.shape.place, place.to_own(standing.goal.position))
-            turned = abs(between_headings(standing.goal.heading, place.heading))
-            if math.hypot(x, z) <= furthest and (flies or turned <= _MOST_TURNED):
-                break
-        return part * period
-
-    @staticmethod
-    def _worth(foot: WalkingFoot, target: Place) -> bool:
-        way = distance(foot.print.position, target.position)
-        return way + _HIP_TURN * abs(between_headings(foot.print.heading, target.heading)) > _WORTH
-
-    @staticmethod
-    def _share_ahead(progression: Progression) -> float:
-        forward, _ = progression.forward
-        return min(1.0, max(0.0, forward / WALK.speed))
-
-    def _landing(self, number: int, until: GlobalTime, period: float, support: float) -> Place:
-        """Return the print of a foot that comes down at a time: the frame passes over it in the middle of its stance.
-
-        In steps aside and turns, the foot on that side goes ahead, and the other one follows to its side.
-        """
-        foot, side = self.feet[number], 1.0 if number == 0 else -1.0
-        aside = self._aside(until, period) * side
-        lead = _LEAD * abs(aside) * period if aside > 0.0 else 0.0
-        stance = (1.0 - abs(aside)) * 0.5 * (1.0 + support) * period + lead
-        later = self.progression.ahead(self._now, GlobalTime(until + stance))
-        ahead = self._share_ahead(later)
-        x, y, z = foot.shape.place
-        narrow = min(1.0, 2.0 * ahead)
-        place = (x + narrow * (side * _CLOSE - x), y, z - ahead * _ROLLING)
-        return Place(later.place.to_world(place), later.place.heading)
-
-    def _aside(self, now: GlobalTime, period: float) -> float:
-        """Return how much the progression goes aside or turns in a time, -1 (right) to 1 (left)."""
-        before = self.progression.ahead(self._now, now)
-        after = before.ahead(now, GlobalTime(now + period))
-        x, _, z = before.place.to_own(after.place.position)
-        turn = _HIP_TURN * (after.heading.at - before.heading.at)
-        whole = math.hypot(x, z) + abs(turn)
-        return 0.0 if whole < 1e-6 else max(-1.0, min(1.0, (x + turn) / whole))

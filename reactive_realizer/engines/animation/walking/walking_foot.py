@@ -5,6 +5,7 @@ from typing import NamedTuple, Self
 
 from reactive_realizer.clock.units import GlobalTime
 from reactive_realizer.embodiment.body import Body, Transform
+from reactive_realizer.embodiment.feet import reach
 from reactive_realizer.embodiment.place import Place, between_headings
 from reactive_realizer.embodiment.quaternion import Quat, from_axis_angle, multiply, rotate
 from reactive_realizer.embodiment.vector import Vec3, add, distance, length, scale, subtract
@@ -46,12 +47,16 @@ class FootShape(NamedTuple):
         ankle: height of the ankle, m.
         ball: position of its ball, about which it rolls off, m.
         rotation: of the ankle at rest, in the figure's frame.
+        hip: how far its hip is to the left of the middle, m.
+        leg: the reach of its leg, m.
     """
 
     place: Vec3
     ankle: float
     ball: Vec3
     rotation: Quat
+    hip: float
+    leg: float
 
     @classmethod
     def of(cls, body: Body, side: str) -> Self:
@@ -59,7 +64,8 @@ class FootShape(NamedTuple):
         ankle, ball = body.transform(f"{side}_ankle"), f"{side}_midtarsal"
         x, y, z = ankle.position
         tip = body.transform(ball).position if ball in body.skeleton else (x, 0.5 * y, z + 0.12)
-        return cls((x, 0.0, z), y, subtract(tip, (x, 0.0, z)), ankle.rotation)
+        hip, _, _ = body.transform(f"{side}_hip").position
+        return cls((x, 0.0, z), y, subtract(tip, (x, 0.0, z)), ankle.rotation, hip, reach(body.skeleton, side))
 
     def posed(self, print_: Place, pitch: float, lift: float = 0.0) -> Transform:
         """Return the transform of the ankle in the world: the foot rolls over its ball or its heel.
