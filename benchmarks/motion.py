@@ -22,7 +22,7 @@ AIMS = {
     "radial_deg": 25,
     "ulnar_deg": 35,
     "walking.wrist_m_s2.p99": 60,
-    "walking.foot_slide_cm.p90": 1,
+    "walking.foot_slide_cm.p99": 1,
 }
 
 _PERCENTILES = {"p50": 50, "p90": 90, "p99": 99, "max": 100}

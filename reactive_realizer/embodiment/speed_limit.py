@@ -21,7 +21,8 @@ WRIST_BRAKE = 50.0
 """Limit for each wrist that has fallen behind and catches up, m/s^2: it slows down before it arrives."""
 
 WRIST_SWERVE = 55.0
-"""Limit for the change of the velocity of each wrist, m/s^2: one that turns back or aside is carried on for a while."""
+"""Limit for the change of the velocity of each wrist in the figure's frame, m/s^2: one that turns back or aside is
+carried on for a while."""
 
 _JOINT_BRAKE = 200.0
 """Limit for the turn of each joint that has fallen behind and catches up, rad/s^2."""
@@ -109,6 +110,7 @@ class SpeedLimit:
         self._goal = shown
         self._places = {wrist: _from_root(wrist, shown) for wrist in _WRISTS}
         self._velocities: dict[str, Vec3] = dict.fromkeys(_WRISTS, ZERO)
+        self._courses = {joint: (shown.transform(joint).position, ZERO) for joint in (ROOT, *_WRISTS)}
         self._upper = [joint for joint in shown.skeleton.joints if joint not in LOWER_BODY and joint not in EYES]
         self._soles = soles(shown.skeleton)
         self._walks = walks(shown.skeleton)
@@ -121,6 +123,9 @@ class SpeedLimit:
         self._shown = self._shown.posed(released, root)
         self._goal = self._goal.posed(released) if behind else self._shown
         self._places = {wrist: _from_root(wrist, self._shown) for wrist in _WRISTS}
+        self._courses = {
+            joint: (self._shown.transform(joint).position, velocity) for joint, (_, velocity) in self._courses.items()
+        }
 
     def __call__(self, wanted: Body, duration: float) -> Body:
         """Return the body to show now.
@@ -146,8 +151,19 @@ class SpeedLimit:
         body = self._on_its_feet(body, wanted, duration)
         places = {wrist: _from_root(wrist, body) for wrist in _WRISTS}
         self._velocities = {w: scale(subtract(at, self._places[w]), 1.0 / duration) for w, at in places.items()}
+        self._courses = {joint: self._course(joint, body, duration) for joint in self._courses}
         self._places, self._shown, self._goal = places, body, wanted
         return body
+
+    def _course(self, joint: str, body: Body, duration: float) -> tuple[Vec3, Vec3]:
+        """Return the position of a joint in the figure's frame, m, and its velocity, m/s."""
+        place, (before, _) = body.transform(joint).position, self._courses[joint]
+        return place, scale(subtract(place, before), 1.0 / duration)
+
+    def _swerve(self, joint: str, body: Body, duration: float) -> Vec3:
+        """Return how far a joint is from where its velocity would have taken it, m."""
+        before, velocity = self._courses[joint]
+        return subtract(body.transform(joint).position, add(before, scale(velocity, duration)))
 
     def _braking(self, wanted: Body, duration: float) -> dict[str, Quat]:
         """Return rotations of the joints that have fallen behind, and would stop abruptly where they are wanted."""
@@ -183,16 +199,19 @@ class SpeedLimit:
         return None
 
     def _carried_on(self, side: str, wrist: str, body: Body, duration: float) -> Body:
-        """Return a body with one wrist as near to where it would be as the change of its velocity allows."""
+        """Return a body with one wrist as near to where it would be as the change of its velocity allows.
+
+        So an arm takes up what the pelvis does in walking. A root that jumps carries it along.
+        """
         shoulder, elbow, carrier = f"{side}_shoulder", f"{side}_elbow", self._arms[wrist][-3]
-        place, most = _from_root(wrist, body), WRIST_SWERVE * duration * duration
-        straight = add(self._places[wrist], scale(self._velocities[wrist], duration))
-        aside = subtract(place, straight)
+        most, aside = WRIST_SWERVE * duration * duration, self._swerve(wrist, body, duration)
+        if length(jump := self._swerve(ROOT, body, duration)) > most:
+            aside = subtract(aside, jump)
         off = length(aside)
         if off <= most:
             return body
         start, above = body.transform(shoulder).position, body.transform(carrier).rotation
-        goal = add(body.root, add(straight, scale(aside, most / off)))
+        goal = subtract(body.transform(wrist).position, scale(aside, 1.0 - most / off))
         bones = body.skeleton.offset(elbow), body.skeleton.offset(wrist)
         turns = brought(
             bones,

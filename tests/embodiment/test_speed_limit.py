@@ -1,5 +1,6 @@
 """The speed limits of a figure."""
 
+import math
 from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
@@ -24,6 +25,7 @@ from reactive_realizer.embodiment.quaternion import (
 )
 from reactive_realizer.embodiment.speed_limit import SpeedLimit, slowed
 from reactive_realizer.embodiment.vector import UP, Vec3, distance, length, subtract
+from reactive_realizer.testing.motion_laws import accelerations
 
 SKELETON = Avatar.read(Path(str(files("reactive_realizer"))) / "assets" / "avatars" / "male.glb").skeleton
 FRAME = 0.02
@@ -139,6 +141,16 @@ def test_the_root_stays_below_2_m_per_second_and_carries_the_arms() -> None:
     assert length(places[5]) == pytest.approx(0.2)
     assert places[-1] == (0.3, -0.4, 0.0)
     assert steps(shown, "r_wrist")[0] == pytest.approx(0.04)
+
+
+def test_an_arm_takes_up_what_a_pelvis_that_goes_up_and_down_would_add_to_its_swerve() -> None:
+    bent = {"l_elbow": from_axis_angle((1.0, 0.0, 0.0), -0.8)}
+    low, high = ({**bent, "l_shoulder": from_axis_angle((1.0, 0.0, 0.0), turn)} for turn in (-0.5, -1.5))
+    heights = [0.02 * (math.cos(0.2 * math.pi * number) - 1.0) for number in range(100)]
+    goals = (body((high, low)[number // 12 % 2], (0.0, height, 0.0)) for number, height in enumerate(heights))
+    shown = followed(body(), *((goal, 1) for goal in goals))
+    assert accelerations(shown, "HumanoidRoot").max() > 15.0
+    assert accelerations(shown, "l_wrist").max() < 56.0
 
 
 def sunk(shown: Body) -> float:

@@ -18,7 +18,7 @@ from .standing import CROSSED
 
 STANDING, SITTING, CROUCHING = (f'<stance type="{stance}"/>' for stance in ("STANDING", "SITTING", "CROUCHING"))
 AKIMBO = '<pose part="ARMS" lexeme="ARMS_AKIMBO"/>'
-SPREAD = '<pose part="ARMS" lexeme="ARMS_SPREAD"/>'
+SPREAD, FORWARD = (f'<pose part="ARMS" lexeme="{lexeme}"/>' for lexeme in ("ARMS_SPREAD", "ARMS_FORWARD"))
 
 SOFT = 0.03
 """m that one limb may be in another: flesh and clothes give way, and a hand that lies on a thigh touches it."""
@@ -128,10 +128,18 @@ async def test_hands_go_around_the_body_from_one_posture_to_another(
         (SITTING, CROUCHING + CROSSED),
         (SITTING + AKIMBO, CROUCHING),
         (SITTING + AKIMBO, CROUCHING + CROSSED),
+        (SITTING + AKIMBO, CROUCHING + FORWARD),
         (CROUCHING + CROSSED, SITTING),
         (CROUCHING + CROSSED, SITTING + AKIMBO),
     ],
-    ids=["arms cross", "hands leave the hips", "arms leave the hips and cross", "arms uncross", "hands go to the hips"],
+    ids=[
+        "arms cross",
+        "hands leave the hips",
+        "arms leave the hips and cross",
+        "arms leave the hips and go forward",
+        "arms uncross",
+        "hands go to the hips",
+    ],
 )
 async def test_arms_go_around_thighs_that_rise_with_stepping_feet(
     either: RealizerPilot, before: str, after: str
@@ -156,6 +164,16 @@ async def test_no_gesture_passes_through_the_body(alternating: RealizerPilot, st
     assert alternating.feedback.reached("b:g:stroke")
     assert alternating.feedback.warnings == []
     assert depth(alternating, alternating.bodies()[150:]) < IN_FLESH
+
+
+async def test_hands_of_a_crouching_figure_keep_out_of_its_thighs(either: RealizerPilot) -> None:
+    either.block("a", '<postureShift id="s"><stance type="CROUCHING"/></postureShift>')
+    await either.advance(3)
+    for lexeme in ("OFFER", "CONTAINER"):
+        either.block(lexeme, f'<gesture id="g" lexeme="{lexeme}" mode="BOTH_HANDS"/>')
+        await either.advance(4)
+        assert either.feedback.reached(f"{lexeme}:g:stroke")
+    assert depth(either, either.bodies()[150:]) < YIELDING
 
 
 @pytest.mark.parametrize("stance", ["STANDING", "SITTING"])

@@ -29,8 +29,8 @@ _COARSE, _FINE = (tuple(number / 14 for number in range(first, 14, 2)) for first
 _STEPS = 4
 """Steps of the solution; what it leaves, the figure keeps clear of in each frame."""
 
-_FEW_POSES, _MOST_POSES = 10, 30
-"""Poses that were looked at after which no further step is made, from the first detour on and with raised arms."""
+_FEW_POSES = 10
+"""Poses that were looked at after which no further step is made, from the first detour on."""
 
 _LOOK = 70
 """Work of each pose that is looked at, as the limit `planning_per_tick` counts."""
@@ -39,7 +39,7 @@ _ENOUGH = 0.03
 """A smaller turn is left to that, rad."""
 
 _MUCH = 0.1
-"""A turn that is left over from which on another search begins with raised arms, rad."""
+"""A turn that is left over from which on another search begins with arms that are turned otherwise, rad."""
 
 SWING = MappingProxyType(
     {
@@ -52,7 +52,18 @@ SWING = MappingProxyType(
 """A swing of the arms forward and aside, over thighs that rise; Euler angles, rad."""
 
 _RAISED = {joint: scale(angles, 0.6) for joint, angles in SWING.items()}
-"""The turns with which that search begins, as rotation vectors, rad."""
+_SPREAD = {
+    "l_shoulder": (0.0, -0.3, 0.3),
+    "r_shoulder": (0.0, 0.3, -0.3),
+    "l_elbow": (-0.3, 0.0, 0.0),
+    "r_elbow": (-0.3, 0.0, 0.0),
+}
+_OTHERWISE = ((_RAISED, 30, 1.0), (_SPREAD, 60, 0.5))
+"""The turns with which these searches begin, as rotation vectors, rad, the poses after which they end, and the share of
+the turn left over that their detour may leave over.
+
+Shoulders that turn by almost half a turn on their way cannot be raised further, but spread.
+"""
 
 _AWAY = 0.02
 """Distance that they keep from the body on their way, m."""
@@ -137,10 +148,12 @@ def find_detour(begin: Body, goal: Body, clear: Clear, first: Detour) -> Generat
     search = _Search(begin, goal, clear, first)
     yield 2 * _LOOK
     best, left = yield from search.best(first, _FEW_POSES)
-    if left >= _MUCH:
-        raised = first._replace(turns=_RAISED).limited(begin, goal)
-        other, still_left = yield from search.best(raised, _MOST_POSES)
-        best = other if still_left < left else best
+    for turns, most, share in _OTHERWISE:
+        if left < _MUCH:
+            break
+        other, still_left = yield from search.best(first._replace(turns=turns).limited(begin, goal), most)
+        if still_left < share * left:
+            best, left = other, still_left
     return best
 
 
