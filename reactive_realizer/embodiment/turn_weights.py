@@ -6,6 +6,7 @@ rotation by one radian. So turns are blended, faded and limited by the same code
 
 from collections import defaultdict
 from collections.abc import Container, Mapping
+from functools import lru_cache
 from typing import Final
 
 from reactive_realizer.embodiment.quaternion import Quat, from_rotation_vector
@@ -25,6 +26,7 @@ def weights_of_joint(joint: str) -> tuple[str, ...]:
     return tuple(f"{joint}{sign}{axis}" for axis in _AXES for sign in "+-")
 
 
+@lru_cache(1024)
 def turned_joint(weight: str) -> str | None:
     """The joint that a weight turns; None for the weight of a morph target."""
     return weight[:-2] if weight[-2:-1] in ("+", "-") and weight[-1] in _AXES else None

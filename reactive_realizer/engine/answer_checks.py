@@ -10,6 +10,7 @@ from reactive_realizer.embodiment.humanoid import EyePose
 from reactive_realizer.embodiment.picture import Picture
 from reactive_realizer.embodiment.pose import Layer, LayerKind, check_rotations, checked
 from reactive_realizer.engine.effects import (
+    NO_EFFECTS,
     ActivateBlock,
     Dropped,
     EndUnit,
@@ -59,6 +60,8 @@ def check_play(play: Play) -> Play:
     Raises:
         TypeError: they cannot.
     """
+    if play is NO_EFFECTS:
+        return play
     expected(Play, play)
     for effects in (play.reached, play.dropped, play.audio, play.requests):
         if type(effects) is not tuple:  # which nearly all are

@@ -214,6 +214,10 @@ class Play(NamedTuple):
     requests: tuple[Request, ...] = ()
 
 
+NO_EFFECTS = Play()
+"""The effects of most frames."""
+
+
 class Output(NamedTuple):
     """The part of an engine in a frame.
 
@@ -229,6 +233,6 @@ class Output(NamedTuple):
     layers: tuple[Layer, ...] = ()
     face: Mapping[str, float] = MappingProxyType({})
     eyes: Eyes | None = None
-    effects: Play = Play()
+    effects: Play = NO_EFFECTS
     dynamics: Dynamics | None = None
     pictures: tuple[Picture, ...] = ()

@@ -13,7 +13,7 @@ from reactive_realizer.embodiment.humanoid import Dynamics, Eyes
 from reactive_realizer.embodiment.picture import Picture
 from reactive_realizer.embodiment.pose import Layer
 from reactive_realizer.embodiment.vector import Vec3
-from reactive_realizer.engine.effects import Dropped, Output, Play, Reached, ReportFall, Request, Warn
+from reactive_realizer.engine.effects import NO_EFFECTS, Dropped, Output, Play, Reached, ReportFall, Request, Warn
 from reactive_realizer.engine.player import Player
 from reactive_realizer.errors import Fault
 from reactive_realizer.pegboard.peg_key import BlockKey
@@ -218,7 +218,8 @@ class DefaultEngine:
         """Layers, face, eyes and pictures; a unit that fails is dropped."""
         layers, face, eyes, dynamics = self.layers(tick), self.face(tick), self.eyes(tick), self.dynamics(tick)
         pictures = self.pictures(tick)
-        effects = Play(dropped=self.player.take_dropped(), requests=self.warnings())
+        dropped, warnings = self.player.take_dropped(), self.warnings()
+        effects = Play(dropped=dropped, requests=warnings) if dropped or warnings else NO_EFFECTS
         return Output(layers, face, eyes, effects, dynamics, pictures)
 
     def fail(self, time: GlobalTime, fault: Fault) -> Play:

@@ -60,7 +60,7 @@ from reactive_realizer.engines.animation.motion_unit import (
     MotionUnit,
 )
 from reactive_realizer.engines.animation.motions.controller import ControllerMotionUnit
-from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS
+from reactive_realizer.engines.animation.motions.locomotion import SPEED, SPEEDS, LocomotionUnit
 from reactive_realizer.engines.animation.motions.release import ReleaseMotionUnit
 from reactive_realizer.engines.animation.physical_figure import PhysicalFigure
 from reactive_realizer.engines.animation.posture.posture_library import PostureLibrary
@@ -309,7 +309,8 @@ class AnimationEngine(DefaultEngine):
         if self._physical_figure.active or self._stepping.active:
             return True
         playing = self._playing()
-        return bool(self._controlling(playing) or self._stepping.walks) or any(unit.motion.steps for unit in playing)
+        steps = any(unit.motion.steps or isinstance(unit, LocomotionUnit) for unit in playing)
+        return steps or bool(self._controlling(playing))
 
     def requests(self, tick: Tick) -> tuple[Request, ...]:
         """Return the moves of points: locomotion arrives at another time, or a temporal extent has changed.

@@ -68,6 +68,8 @@ class EndedMotions:
 
     def persisting(self, now: GlobalTime) -> tuple[Layer, ...]:
         """Return the layers of the poses that persist."""
+        if not self._poses.motions:
+            return ()
         layers = self._poses.layers(now, self._humanoid.body)
         for motion in self._poses.motions:
             if motion.jumped:

@@ -47,6 +47,8 @@ class ParameterJumps:
         """Return whether a parameter has changed since the last call, by much more than just before."""
         played, self._played = self._played, self._values()
         before, self._changes = self._changes, _changes(played, self._played)
+        if not self._changes:
+            return False
         pairs = zip_longest(self._changes, before, fillvalue=0.0)
         return any(abs(change) > _MUCH_MORE * abs(last) for change, last in pairs)
 

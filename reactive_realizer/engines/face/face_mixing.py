@@ -72,8 +72,10 @@ class MouthShares:
         self._corners.move(_CORNERS_WHILE_SPEAKING if speaking else 1.0, change)
         self._lips.move(0.0 if speaking else 1.0, elapsed / (_LIPS_YIELD if speaking else _CHANGE))
 
-    def of(self, face: Weights) -> dict[str, float]:
+    def of(self, face: Weights) -> Weights:
         """The weights of a face as far as they are shown."""
+        if self._corners.value == self._lips.value == 1.0:
+            return face
         return {morph: weight * self._share(morph) for morph, weight in face.items()}
 
     def _share(self, morph: str) -> float:
@@ -112,7 +114,8 @@ def between(before: Weights, after: Weights, share: float) -> dict[str, float]:
 
 def greatest(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:
     """The greater weight of each morph target: lips that smile already have the width of an "ee"."""
-    return {morph: max(one.get(morph, 0.0), other.get(morph, 0.0)) for morph in (*one, *(other.keys() - one.keys()))}
+    rest = {morph: max(0.0, weight) for morph, weight in other.items() if morph not in one}
+    return {morph: max(weight, other.get(morph, 0.0)) for morph, weight in one.items()} | rest
 
 
 @cache
