@@ -200,6 +200,9 @@ otherwise the first one |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
+`blinkemitter` and `breathingemitter` of BMLT with `avgwaitingtime` (s) and without an `end` are read as an
+[`idleChange`](#idlechange) of BLINK_RATE and BREATHING_RATE; their `range` has no effect. Other emitters are left to plug-ins.
+
 `keyPoses`, `glance`, `release`, `idleChange` and `weightShift` are in the namespace `urn:reactive-realizer:1`
 ([key poses in BML](embrscript.md#key-poses-in-bml)). `murmlgesture` and `murmlface` are in the namespace
 `http://www.techfak.uni-bielefeld.de/ags/soa/murml` ([MURML](murml.md)).
@@ -224,10 +227,11 @@ this table causes a warning.
 | draft | read as |
 |---|---|
 | `bml scheduling="append"` | `composition` |
-| `bml character="..."`, `bml agent="..."` | `characterId`; in a scene without `Greta`, its first character |
+| `bml character="..."` | `characterId`; in a scene without `Greta`, its first character |
+| `bml agent="..."` | the character; in a scene without it, its first one |
 | `bml composition="blend"` | `MERGE` |
 | `bml reaction_type="NONE"`, `reaction_duration="NONE"`, `social_attitude="neutral"` | ignored |
-| `start="-0.5"` | `start="0"` |
+| `start="-0.5"`, `ready="-0.2"` | `start="0"`; other points before 0 come as early as possible |
 | `bml` and behaviors without `id` | an `id` such as `document1`, `head1` |
 | `head action="ROTATION" rotation="NOD"`, `head type="NOD"` | `lexeme`; a rotation X is NOD, Y is SHAKE, Z is TILT |
 | `head lexeme="Down_Aside_Right"` | `DOWN_RIGHT`, and the [reference](binding.md#gestures-of-greta) as written |
@@ -238,11 +242,15 @@ this table causes a warning.
 | `gaze type="AT"`, `gaze modality` | ignored, and `influence`; LEGS means WHOLE |
 | `gaze` without `target` | `target="viewer"` |
 | `face type="FACS" au="..."`, `type="LEXICALIZED" lexeme="..."` | `faceFacs`, `faceLexeme` |
+| `face type="HAPPY"`, and SAD, ANGRY, AFRAID, DISGUSTED, SURPRISED, SCEPTICAL, NEUTRAL | `faceLexeme`: JOY and so on; SCEPTICAL is RAISE_LEFT_BROW |
+| `face stroke_start="..." stroke_end="..."` | `attackPeak`, and `relax` if that is not tied |
 | `face au="1_left"` | `au="1" side="left"` |
 | `lexeme` in a `face` | `faceLexeme` |
 | `posture stance="standing" shape="open" part="lower"` | `stance` and `pose`, here LEGS and LEGS_OPEN |
 | `torso lexeme="..."`, `body posture="..."`, `shoulder lexeme="..."` | `posture` with a `pose` of WHOLEBODY or ARMS |
 | text directly in `speech`, `<tm id="..."/>`, `<mark name="..."/>` | `text`, `sync` |
+| a mark with the name of an earlier one of its speech | left out: the first one counts, as in Greta |
+| `<break>`, `<emphasis>`, `<prosody>` and so on in a `speech` | [SSML](voices.md#ssml) in a description |
 | `speech text="..."` | `text`, if there is no other |
 | `speech ref="..."` | a [recording](audio.md#recorded-speech) |
 | `speech language`, `voice`, `type`, and points of gestures | ignored: the voice of the character speaks |
@@ -250,7 +258,7 @@ this table causes a warning.
 | `<reference>beat=Circle</reference>` in a description | the `lexeme`, if there is no other, and the reference |
 | `<param name="..." value="..."/>` in a behavior | [`bmlt:parameter`](#parameter-of-any-behavior-of-bmlt) |
 | `description level="..."`, or without `priority` | `priority`, or 0 |
-| `<lips>`, `<curves>` | left out with one warning: the lips follow the sound |
+| `<lips>`, `<curves>` | nothing beside a speech: the lips follow its sound; otherwise left out with one warning |
 | `synchronize ref="..."` | an additional `sync` in it |
 | `event message="NAME content" stroke="..."` | `bmla:emit event="NAME" start="..."` with the content |
 | other elements and attributes of SmartBody | [see there](smartbody.md#how-everything-is-read) |

@@ -10,6 +10,7 @@ from reactive_realizer.bml.behaviors import Gaze, Posture
 from reactive_realizer.bml.block import Constraint, Order, OrderKind, Problem, Synchronize
 from reactive_realizer.bml.block_source import BlockSource
 from reactive_realizer.bml.drafts import modernize
+from reactive_realizer.bml.emitters import replace_emitter
 from reactive_realizer.bml.extensions import Noise, lasts
 from reactive_realizer.bml.faults import DuplicateId, MissingElement, MoreProblems, TooManyBehaviors
 from reactive_realizer.bml.smartbody.behaviors import adapt, is_of_smartbody
@@ -21,6 +22,7 @@ from reactive_realizer.errors import Fault, RealizerError, quoted
 _REQUIRED: Final = "required"
 _CONSTRAINT: Final = "constraint"
 _LIPS: Final = frozenset({"lips", "curves"})
+_SPEECH: Final = "speech"
 _SYNCHRONIZE: Final = "synchronize"
 _ENDING: Final = frozenset({"relax", "end"})
 _CONSTRAINTS: Final = (_SYNCHRONIZE, *OrderKind)
@@ -92,7 +94,7 @@ class ContentReader:
     def _without_lips(self, children: list[tuple[Tree, bool]]) -> list[tuple[Tree, bool]]:
         """The children except shapes of the mouth, which speech files of SmartBody list beside the speech."""
         lips = [child for child, _ in children if _is_draft(child) and name_of(child) in _LIPS]
-        if lips:
+        if lips and not any(name_of(child) == _SPEECH for child, _ in children):
             names = tuple(dict.fromkeys(map(name_of, lips)))
             self.report([self._source.located(lips[0], LipsLeftOut(elements=names))])
         return [child for child in children if child[0] not in lips]
@@ -138,6 +140,7 @@ class ContentReader:
         try:
             if draft:
                 notes += [*adapt(tree, self._source), *modernize(tree, self._source)]
+            replace_emitter(tree, self._source)
             behavior = read_behavior(tree, self._source, order, required, notes)
             if behavior.id in self._behaviors:
                 raise RealizerError(self._source.located(tree, DuplicateId(element=name_of(tree), id=behavior.id)))

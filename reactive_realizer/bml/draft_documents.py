@@ -24,6 +24,8 @@ _SMARTBODY, _SBM = "{http://ict.usc.edu}", f"{{{SBM}}}"
 _PARTICIPANT: Final = "participant"
 """The element of SmartBody that says who plays an act, and to whom it is addressed."""
 _ACTOR: Final = "actor"
+_PLANNED: Final = frozenset({_PARTICIPANT, "fml", "turn"})
+"""Elements of an act that say who plays it, or what its blocks were planned from: SmartBody plays nothing of them."""
 _CAST: Final = f"{{{CAST[0]}}}{CAST[1]}"
 
 
@@ -78,7 +80,8 @@ def _inside(wrapper: Root) -> Iterator[Root | Problem]:
     blocks = [child for child in wrapper.tree if _is_block(child)]
     participants = [child for child in wrapper.tree if name_of(child) == _PARTICIPANT]
     actor = next((each.get("id", "") for each in participants if each.get("role", _ACTOR) == _ACTOR), "")
-    others = (child for child in wrapper.tree if not _is_block(child) and child not in participants)
+    unplayed = _PLANNED if name_of(wrapper.tree) == _ACT else frozenset()
+    others = (child for child in wrapper.tree if not _is_block(child) and name_of(child) not in unplayed)
     left_out = [child for child in others if len(child) + len(child.attrib)]
     notes: list[Fault] = []
     if left_out:
@@ -97,7 +100,7 @@ def _inside(wrapper: Root) -> Iterator[Root | Problem]:
 def _with_block(wrapper: Root) -> Root:
     """A wrapper with a block: behaviors that stand directly in an act are moved into one."""
     tree = wrapper.tree
-    behaviors = [child for child in tree if name_of(child) != _PARTICIPANT]
+    behaviors = [child for child in tree if name_of(child) not in _PLANNED]
     if name_of(tree) != _ACT or not behaviors or any(map(_is_block, behaviors)):
         return wrapper
     block = etree.SubElement(tree, BLOCK)

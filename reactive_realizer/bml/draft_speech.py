@@ -11,6 +11,7 @@ from typing import Final, NamedTuple
 from lxml import etree
 
 from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.draft_ssml import describe_ssml
 from reactive_realizer.bml.smartbody.requests import UNCLOSED_MARK
 from reactive_realizer.bml.speech_faults import TooMuchMarkup, UnknownMark
 from reactive_realizer.bml.ssml_elements import SSML
@@ -40,27 +41,43 @@ def modernize_speech(tree: Tree, source: BlockSource) -> list[Fault]:
     for name in (*_OF_OTHER_VOICES, *_OTHER_POINTS):
         tree.attrib.pop(name, "")
     for holder in (tree, *children_of(tree, "text")):
-        for mark in children_of(holder, *_MARKS):
-            source.rename(mark, "sync", _MARKS[name_of(mark)])
-            if "name" in mark.attrib and "id" not in mark.attrib:
-                mark.set("id", str(mark.attrib.pop("name")))
-        _drop_repeated_marks(holder)
+        _name_marks(holder, source)
     _describe_file(tree, str(tree.attrib.pop("ref", "")), source)
     said = str(tree.attrib.pop("text", "")).strip()
     if not children_of(tree, "text") and (said or stray_text_of(tree) or children_of(tree, "sync")):
         _wrap_text(tree, said, source)
+    for text in children_of(tree, "text"):
+        describe_ssml(tree, text, source)
+        _name_marks(text, source)  # and those that were inside of SSML
     return [fault for text in children_of(tree, "text") for fault in _prosody(tree, text, source)]
 
 
+def _name_marks(holder: Tree, source: BlockSource) -> None:
+    """Rewrites the marks among the words as sync points."""
+    for mark in children_of(holder, *_MARKS):
+        source.rename(mark, "sync", _MARKS[name_of(mark)])
+        if "name" in mark.attrib and "id" not in mark.attrib:
+            mark.set("id", str(mark.attrib.pop("name")))
+    _drop_repeated_marks(holder)
+
+
 def _drop_repeated_marks(holder: Tree) -> None:
-    """Removes marks that follow one with the same id at once: generators write one after a word and before the next."""
+    """Removes marks with the id of an earlier one, which is the one that Greta finds; their text stays."""
+    seen = set()
     for mark in children_of(holder, "sync"):
-        before = mark.getprevious()
-        same = before is not None and name_of(before) == "sync" and before.get("id") == mark.get("id")
-        if before is not None and same and not (before.tail or "").strip():
-            before.tail = (before.tail or "") + (mark.tail or "")
+        id_ = mark.get("id")
+        if id_ in seen:
+            _say(holder, [_said_before(mark), mark.tail or ""], before=mark)
             mark.tail = None
             holder.remove(mark)
+        elif id_:
+            seen.add(id_)
+
+
+def _said_before(child: Tree) -> str:
+    """The text in front of a child of an element, up to the child before it."""
+    before, parent = child.getprevious(), child.getparent()
+    return (before.tail if before is not None else parent.text if parent is not None else None) or ""
 
 
 def _wrap_text(tree: Tree, said: str, source: BlockSource) -> None:

@@ -6,20 +6,19 @@ reader of BML 1.0 reports it.
 """
 
 import re
-from collections.abc import Callable, Collection, Mapping
-from types import MappingProxyType
+from collections.abc import Callable, Mapping
 from typing import Final
 
-from reactive_realizer.bml.behaviors import REFERENCE
 from reactive_realizer.bml.block import CAST
 from reactive_realizer.bml.block_source import BlockSource
+from reactive_realizer.bml.draft_attributes import check, name_by_reference, refer, rename, take
+from reactive_realizer.bml.draft_faces import modernize_face
 from reactive_realizer.bml.draft_speech import modernize_speech
 from reactive_realizer.bml.names import BMLA, BMLT
 from reactive_realizer.bml.sync_ref import DRAFT_SPELLINGS
 from reactive_realizer.bml.trees import PARAMETER, Tree, children_of, name_of, stray_text_of
-from reactive_realizer.bml.value_faults import UnknownWord
 from reactive_realizer.bml.vocabulary import Composition
-from reactive_realizer.errors import Fault, RealizerError
+from reactive_realizer.errors import Fault
 
 _AXES: Final = {"X": "NOD", "Y": "SHAKE", "Z": "TILT"}
 _HANDS: Final = {"LEFT": "LEFT_HAND", "RIGHT": "RIGHT_HAND", "BOTH": "BOTH_HANDS"}
@@ -32,29 +31,28 @@ _LEANINGS: Final = {
 }
 _ASIDE: Final = "ASIDE"
 _PART: Final = re.compile(r"0?\.[0-9]+")
-_SIDED: Final = re.compile("([0-9]+)_(left|right|both)", re.IGNORECASE)
 _AHEAD: Final = "viewer"
 """The target of a gaze that names none."""
 _BEFORE: Final = re.compile(r"-[0-9]*\.?[0-9]+")
-"""A start before that of the block, which Greta writes for what accompanies the first word."""
+"""A time before the start of the block, which Greta writes for what accompanies the first word."""
+_INNER: Final = ("ready", "strokeStart", "stroke", "strokeEnd", "relax")
+"""Points of which one before the start of the block comes as early as it can."""
 _WRITTEN_BY_GRETA: Final = "Greta"
 _BLEND: Final = "blend"
 _UNSET: Final = {"reaction_type": "none", "reaction_duration": "none", "social_attitude": "neutral"}
 """Attributes of Greta's blocks -> the value that asks for nothing."""
-_FACES: Final = {"FACS": "faceFacs", "LEXICALIZED": "faceLexeme"}
 
 
 def modernize_block(tree: Tree) -> None:
     """Rewrites the attributes of a block, or of a use of a procedure, as BML 1.0 and BMLA, in place.
 
-    ``scheduling`` is the composition, and ``character`` (Greta) and ``agent`` (EMBOTS) name the character. Greta writes
-    its own name for any character: the first one of a scene stands in for that.
+    ``scheduling`` is the composition, and ``character`` (Greta) and ``agent`` (EMBOTS) name the character. If a scene
+    has no ``agent`` of that name, or not the one whose name Greta writes for any character, its first one stands in.
     """
     _rename_points(tree)
-    if tree.get("character") == _WRITTEN_BY_GRETA:
-        tree.set(f"{{{CAST[0]}}}{CAST[1]}", _take(tree, "character"))
-    for name in ("character", "agent"):
-        _rename(tree, name, "characterId")
+    written_for_any = "character" if tree.get("character") == _WRITTEN_BY_GRETA else "agent"
+    rename(tree, written_for_any, f"{{{CAST[0]}}}{CAST[1]}")
+    rename(tree, "character", "characterId")
     if tree.get("composition", "").lower() == _BLEND:
         tree.set("composition", Composition.MERGE)
     for name in _UNSET:
@@ -71,12 +69,15 @@ def modernize(tree: Tree, source: BlockSource) -> list[Fault]:
         RealizerError: ``bad-attribute``: BML 1.0 has no equivalent.
     """
     _rename_points(tree)
-    if _BEFORE.fullmatch(tree.get("start", "").strip()):
+    if _is_before(tree, "start"):
         tree.set("start", "0")
+    for point in _INNER:
+        if _is_before(tree, point):
+            del tree.attrib[point]
     for parameter in children_of(tree, "param"):
         parameter.tag = f"{{{BMLT}}}{PARAMETER}"
     for description in children_of(tree, "description"):
-        _rename(description, "level", "priority")
+        rename(description, "level", "priority")
         if "priority" not in description.attrib:
             description.set("priority", "0")
     if name_of(tree) == "speech":
@@ -87,16 +88,20 @@ def modernize(tree: Tree, source: BlockSource) -> list[Fault]:
     return []
 
 
+def _is_before(tree: Tree, point: str) -> bool:
+    return _BEFORE.fullmatch(tree.get(point, "").strip()) is not None
+
+
 def _head(tree: Tree, source: BlockSource) -> None:
-    _check(tree, "action", ["ROTATION"], source)
-    _rename(tree, "rotation", "lexeme", _AXES)
-    _rename(tree, "type", "lexeme")
-    _name_by_reference(tree)
+    check(tree, "action", ["ROTATION"], source)
+    rename(tree, "rotation", "lexeme", _AXES)
+    rename(tree, "type", "lexeme")
+    name_by_reference(tree)
     if "lexeme" in tree.attrib:
         lexeme = tree.get("lexeme", "")
-        _refer(tree, lexeme, _direction(lexeme))
+        refer(tree, lexeme, _direction(lexeme))
         tree.set("lexeme", _direction(lexeme))
-    _rename(tree, "repeats", "repetition")
+    rename(tree, "repeats", "repetition")
     if _PART.fullmatch(tree.get("repetition", "")):
         tree.set("repetition", "1")  # of SmartBody: a part of a nod
 
@@ -108,99 +113,56 @@ def _direction(lexeme: str) -> str:
 
 
 def _gesture(tree: Tree, source: BlockSource) -> None:
-    _rename(tree, "hand", "mode", _HANDS)
+    rename(tree, "hand", "mode", _HANDS)
     kind = tree.get("type", "").upper()
     if kind == "POINT":
         tree.tag = "pointing"
     if kind in {"POINT", "LEXICALIZED"}:
         del tree.attrib["type"]
-    _rename(tree, "type", "lexeme")
-    _name_by_reference(tree)
+    rename(tree, "type", "lexeme")
+    name_by_reference(tree)
 
 
 def _gaze(tree: Tree, source: BlockSource) -> None:
-    _check(tree, "type", ["AT", "GAZE"], source)
-    _rename(tree, "modality", "influence", {"LEGS": "WHOLE"})
+    check(tree, "type", ["AT", "GAZE"], source)
+    rename(tree, "modality", "influence", {"LEGS": "WHOLE"})
     if "target" not in tree.attrib:
         tree.set("target", _AHEAD)
-
-
-def _face(tree: Tree, source: BlockSource) -> None:
-    for lexeme in children_of(tree, "lexeme"):
-        lexeme.tag = _FACES["LEXICALIZED"]
-    parts = children_of(tree, *_FACES.values())
-    for part in parts or (tree,):
-        _split_side(part)
-    if parts:
-        return
-    kind = _check(tree, "type", _FACES, source) or ("FACS" if "au" in tree.attrib else "LEXICALIZED")
-    tree.tag = _FACES[kind]
-    if kind == "LEXICALIZED":
-        _name_by_reference(tree)
-
-
-def _split_side(tree: Tree) -> None:
-    """Rewrites an action unit with a side, such as ``1_left``."""
-    found = _SIDED.fullmatch(tree.get("au", ""))
-    if found is not None and "side" not in tree.attrib:
-        tree.set("au", found[1])
-        tree.set("side", found[2])
-
-
-def _name_by_reference(tree: Tree) -> None:
-    """Takes the word of a behavior from the reference in its description (Greta), such as ``beat=Circle``.
-
-    Beside a lexeme, it is a reference: of several movements with this lexeme, it selects one.
-    """
-    references = ((each.text or "").strip() for each in tree.iterfind("description/reference"))
-    reference = next(filter(None, references), "")
-    word = reference.rpartition("=")[2].strip()
-    if word and "lexeme" not in tree.attrib:
-        tree.set("lexeme", word)
-    if word:
-        _refer(tree, reference, tree.get("lexeme", ""))
-
-
-def _refer(tree: Tree, reference: str, lexeme: str) -> None:
-    """Writes a reference that says more than the lexeme, unless there is one."""
-    name = f"{{{REFERENCE[0]}}}{REFERENCE[1]}"
-    if reference.lower() != lexeme.lower() and name not in tree.attrib:
-        tree.set(name, reference)
 
 
 def _part_of_body(tree: Tree, source: BlockSource) -> None:
     """Rewrites a behavior of the trunk or the shoulders, or a posture of SmartBody, as a posture."""
     part = _BODY[name_of(tree)]
-    _rename(tree, "posture", "lexeme")
-    _name_by_reference(tree)
+    rename(tree, "posture", "lexeme")
+    name_by_reference(tree)
     tree.tag = "posture"
-    lexeme = _take(tree, "lexeme")
+    lexeme = take(tree, "lexeme")
     if lexeme:
         known = _LEANINGS.get(lexeme.upper(), lexeme)
-        _refer(tree, lexeme, known)
+        refer(tree, lexeme, known)
         source.insert(tree, "pose", {"part": part, "lexeme": known})
 
 
 def _posture(tree: Tree, source: BlockSource) -> None:
     if "stance" in tree.attrib:
-        source.insert(tree, "stance", {"type": _take(tree, "stance")})
+        source.insert(tree, "stance", {"type": take(tree, "stance")})
     if "shape" in tree.attrib:
-        part = _take(tree, "part", "WHOLEBODY").upper()
-        part, shape = _PARTS.get(part, part), _take(tree, "shape").upper()
+        part = take(tree, "part", "WHOLEBODY").upper()
+        part, shape = _PARTS.get(part, part), take(tree, "shape").upper()
         lexeme = f"{part}_{shape}" if part in _PARTS.values() else shape
         source.insert(tree, "pose", {"part": part, "lexeme": lexeme})
 
 
 def _synchronize(tree: Tree, source: BlockSource) -> None:
     if "ref" in tree.attrib:
-        source.insert(tree, "sync", {"ref": _take(tree, "ref")})
+        source.insert(tree, "sync", {"ref": take(tree, "ref")})
 
 
 def _event(tree: Tree, source: BlockSource) -> None:
     """SmartBody's event: the first word of its message is the name, as on its message bus, and the rest the content."""
-    name, _, content = (_take(tree, "message") or stray_text_of(tree)).partition(" ")
+    name, _, content = (take(tree, "message") or stray_text_of(tree)).partition(" ")
     tree.tag = f"{{{BMLA}}}emit"
-    _rename(tree, "stroke", "start")
+    rename(tree, "stroke", "start")
     if name:
         tree.set("event", name)
         tree.text = content
@@ -211,7 +173,7 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {
     "gesture": _gesture,
     "gaze": _gaze,
     "gazeShift": _gaze,
-    "face": _face,
+    "face": modernize_face,
     "posture": _posture,
     "synchronize": _synchronize,
     "event": _event,
@@ -221,27 +183,4 @@ _REWRITES: Final[Mapping[str, Callable[[Tree, BlockSource], None]]] = {
 
 def _rename_points(tree: Tree) -> None:
     for old, new in DRAFT_SPELLINGS.items():
-        _rename(tree, old, new)
-
-
-def _rename(tree: Tree, old: str, new: str, words: Mapping[str, str] = MappingProxyType({})) -> None:
-    """Renames an attribute and its word; if the new attribute exists too, the reader reports the old one."""
-    if old in tree.attrib and new not in tree.attrib:
-        value = _take(tree, old)
-        tree.set(new, words.get(value.upper(), value))
-
-
-def _take(tree: Tree, name: str, default: str = "") -> str:
-    return str(tree.attrib.pop(name, default))
-
-
-def _check(tree: Tree, name: str, words: Collection[str], source: BlockSource) -> str:
-    """Removes an attribute that BML 1.0 does not have; returns its word in capitals, empty if it is not written.
-
-    Raises:
-        RealizerError: ``bad-attribute``: none of the words.
-    """
-    value = _take(tree, name)
-    if value and value.upper() not in words:
-        raise source.bad_attribute(tree, name, value, RealizerError(UnknownWord(word=value, known=tuple(words))))
-    return value.upper()
+        rename(tree, old, new)

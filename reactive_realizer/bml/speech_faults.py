@@ -4,10 +4,10 @@ from reactive_realizer.errors import ParsingFault
 
 
 class LipsLeftOut(ParsingFault):
-    """Shapes of the mouth beside a speech."""
+    """Shapes of the mouth without a speech."""
 
     code = "lips-left-out"
-    template = "{elements} is left out: the lips follow the sound of the speech"
+    template = "{elements} is left out: lips follow the sound of a speech, and this block has none"
     elements: tuple[str, ...]
 
 

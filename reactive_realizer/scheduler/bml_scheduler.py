@@ -324,8 +324,10 @@ class BMLScheduler:
         return not self._predictions.waiting and not any(block.can_progress(now) for block in self.blocks.asked_for)
 
     def warn_stuck(self) -> None:
-        """Warn of every block that is alive, and of the points that it waits for."""
+        """Warn of every block that is alive, and of the points that it waits for, unless it only persists."""
         for block in self.blocks.asked_for:
+            if block.only_persists:
+                continue
             fault = NeverMoves(waits=", ".join(block.awaited))
             self._feedback.warn(block.key.character, block.key.block, fault)
 

@@ -115,8 +115,14 @@ async def test_one_of_two_simultaneous_persistent_gazes_is_dropped(pilot: Realiz
     assert points(pilot, "a:other") == []
 
 
-async def test_a_session_ends_when_only_persistent_behaviors_are_left_and_lists_them(pilot: RealizerPilot) -> None:
+async def test_a_session_ends_without_a_warning_when_only_persistent_behaviors_are_left(pilot: RealizerPilot) -> None:
     pilot.perform(LOOK.format(""))
+    await run_until_done(pilot.realizer, ManualClock(), GlobalTime(600.0))
+    assert pilot.feedback.warnings == []
+
+
+async def test_a_session_that_ends_names_what_waits_for_the_end_of_a_persistent_behavior(pilot: RealizerPilot) -> None:
+    pilot.perform(LOOK.format('<head id="nod" type="NOD" start="look:end"/>'))
     await run_until_done(pilot.realizer, ManualClock(), GlobalTime(600.0))
     (warning,) = pilot.feedback.of("warningFeedback")
     assert warning.id == "a"

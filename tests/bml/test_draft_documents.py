@@ -64,6 +64,16 @@ def test_an_act_of_smartbody_is_a_wrapper_too() -> None:
     assert told(text) == []
 
 
+def test_what_an_act_was_planned_from_is_not_mentioned() -> None:
+    text = '<act><fml><turn start="take"/></fml><turn end="give"/><bml id="b"/></act>'
+    assert ids(text) == ["b"]
+    assert told(text) == []
+
+
+def test_other_elements_in_an_act_are_left_out_with_one_warning() -> None:
+    assert told('<act><mood value="1"/><bml id="b"/></act>') == [("b", "left-out", 1)]
+
+
 @pytest.mark.parametrize("text", ["<act/>", "<fml-apml><fml><emotion type='joy'/></fml></fml-apml>"])
 def test_a_wrapper_without_a_block_is_refused(text: str) -> None:
     assert told(text) == [("bml", "no-block", 1)]

@@ -100,6 +100,8 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object]]] = {
     '<face id="x" au="4"/>': (FaceFacs, {"au": 4}),
     '<face id="x" type="lexicalized" lexeme="OPEN_MOUTH"/>': (FaceLexeme, {"lexeme": "OPEN_MOUTH"}),
     '<face id="x"><faceLexeme lexeme="OPEN_MOUTH"/></face>': (Face, {"amount": 0.5}),
+    '<face id="x" type="happy"/>': (FaceLexeme, {"lexeme": "JOY"}),
+    '<face id="x" type="Afraid" start="1" end="2"/>': (FaceLexeme, {"lexeme": "FEAR"}),
     '<posture id="x" stance="sitting"/>': (Posture, {"stance": StanceType.SITTING, "poses": ()}),
     '<posture id="x" stance="standing" shape="open" part="lower"/>': (
         Posture,
@@ -269,6 +271,25 @@ def test_accents_and_boundaries_between_marks_are_prosody(name: str) -> None:
     assert said == markup
 
 
+def test_ssml_among_words_is_followed(subtests: pytest.Subtests) -> None:
+    words = (
+        'Come <mark name="a"/>in,<break time="300ms"/> <emphasis level="strong">do <mark name="b"/>come</emphasis> in.'
+    )
+    for inside in (words, f"<text>{words}</text>"):
+        with subtests.test(inside):
+            speech = only(f'<speech id="x" type="application/ssml+xml">{inside}</speech>')
+            assert isinstance(speech, Speech)
+            spoken, plain = speech.forms
+            assert isinstance(spoken, Speech)
+            assert isinstance(plain, Speech)
+            assert spoken.text == plain.text == "Come in, do come in."
+            assert [mark.id for mark in spoken.marks] == [mark.id for mark in plain.marks] == ["a", "b"]
+            assert [(each.kind, each.text) for each in spoken.markup] == [
+                (MarkupKind.BREAK, ""),
+                (MarkupKind.EMPHASIS, "strong"),
+            ]
+
+
 def test_an_accent_between_unknown_marks_is_left_out_with_a_problem() -> None:
     (problem,) = read('<speech id="x">so <tm id="a"/>be it<pitchaccent start="x:a" end="x:z"/></speech>').problems
     assert problem.fault.sentence == "the speech has no inline sync point 'z'; it has a"
@@ -304,6 +325,12 @@ def test_a_speech_file_of_smartbody_is_a_recording_with_times() -> None:
     assert [(each.id, each.time) for each in recording.mark_times] == [("T0", 0.0), ("T1", 0.31)]
 
 
+def test_shapes_of_the_mouth_beside_a_speech_are_not_mentioned() -> None:
+    inside = '<lips viseme="Ah" start="0" end="0.2"/><curves><curve name="Ah">0 0</curve></curves>'
+    speech = only(f'{inside}<speech id="x">Hi</speech>')
+    assert isinstance(speech, Speech)
+
+
 def test_a_number_after_the_id_of_a_speech_is_the_name_of_its_mark() -> None:
     _, gesture = block(
         '<speech id="s">so <sync id="1"/>there</speech><gesture id="g" type="BEAT" stroke="s:1"/>'
@@ -311,8 +338,23 @@ def test_a_number_after_the_id_of_a_speech_is_the_name_of_its_mark() -> None:
     assert gesture.syncs["stroke"].sync == "1"
 
 
-def test_a_block_may_name_its_character_as_greta_and_embots_do() -> None:
-    assert block("", 'character="alice"').character == block("", 'agent="alice"').character == "alice"
+def test_a_block_may_name_its_character_as_greta_does() -> None:
+    assert block("", 'character="alice"').character == "alice"
+
+
+def test_the_first_character_of_a_scene_stands_in_for_an_unknown_agent_of_embots() -> None:
+    own = block("", 'agent="alice"')
+    assert [own.played_by(scene) for scene in (["bob", "alice"], ["bob"])] == ["alice", "bob"]
+
+
+def test_a_face_of_embots_is_complete_from_the_start_of_its_stroke_to_the_end() -> None:
+    face = only('<face id="x" type="sad" stroke_start="1" stroke_end="2"/>')
+    assert {point: str(ref) for point, ref in face.syncs.items()} == {"attackPeak": "1", "relax": "2"}
+
+
+def test_what_is_before_the_start_of_a_block_comes_as_early_as_possible() -> None:
+    gaze = only('<gaze id="x" start="-1.8" ready="-1.3" relax="2.6" end="3.1"/>')
+    assert {point: str(ref) for point, ref in gaze.syncs.items()} == {"start": "0", "relax": "2.6", "end": "3.1"}
 
 
 GRETA = "http://www.mindmakers.org/projects/BML"
@@ -389,7 +431,7 @@ KEPT = {
     '<speech id="x">Hi<mark name="a" pace="2"/></speech>': "unknown attribute pace of <mark>",
     '<speech id="x">Hi<sync id="a" pace="2"/></speech>': "unknown attribute pace of <sync>",
     '<speech id="x">Hi<sync id="a" time="1"/></speech>': "time of a has no effect",
-    '<lips id="x" viseme="Ah"/><speech id="x">Hi</speech>': "lips is left out: the lips follow the sound",
+    '<lips viseme="Ah"/><wait id="x" duration="1"/>': "lips is left out: lips follow the sound of a speech",
     '<speech id="x">Hi <b>you</b></speech>': "unknown b in <text>; known: sync",
 }
 

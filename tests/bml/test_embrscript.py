@@ -155,6 +155,13 @@ def test_eyes_look_at_places() -> None:
     assert (found.group, type(goal)) == (BodyGroup.EYES, LookAtGoal)
 
 
+def test_the_angle_of_a_swivel_may_be_its_target() -> None:
+    swivel = "BEGIN SWIVEL_CONSTRAINT\nBODY_GROUP:rarm\nTARGET:40\nJOINT:rhumerus\nEND"
+    (goal,) = key_poses(script(f"TIME_POINT:+200\n{swivel}")).poses[0].goals
+    assert isinstance(goal, SwivelGoal)
+    assert goal.angle == 40.0
+
+
 def test_all_constraints_of_a_body_group_are_one_behavior() -> None:
     fist = "BEGIN POSE_TARGET\nBODY_GROUP:rhand\nPOSE_KEY:hands_fist\nINFLUENCE:0.5\nEND"
     swivel = "BEGIN SWIVEL_CONSTRAINT\nBODY_GROUP:rarm\nSWIVEL_ANGLE:30\nEND"

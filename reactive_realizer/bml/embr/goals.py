@@ -105,7 +105,9 @@ def _directed(node: Node, direction: Coordinates, axis: str | None, notes: Notes
 
 
 def _swivel(node: Node, notes: Notes) -> KeyPoseGoal:
-    return SwivelGoal(angle=notes.number(node, "SWIVEL_ANGLE", low=-180.0, high=180.0), location=node.location)
+    # Scripts of EMBR write the angle as a TARGET too.
+    name = "TARGET" if "TARGET" in node.values and "SWIVEL_ANGLE" not in node.values else "SWIVEL_ANGLE"
+    return SwivelGoal(angle=notes.number(node, name, low=-180.0, high=180.0), location=node.location)
 
 
 def _look_at(node: Node, notes: Notes) -> KeyPoseGoal:

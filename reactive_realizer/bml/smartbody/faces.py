@@ -22,7 +22,8 @@ from reactive_realizer.errors import Fault, RealizerError
 _LONGEST: Final = 60.0
 _PEAKS: Final = ("ready", "strokeStart", "stroke_start", "stroke")
 """Points of a face at one of which it is complete: the first one that is tied."""
-_AFTER_PEAK: Final = (*_PEAKS, "strokeEnd", "stroke_end")
+_SHOWN: Final = ("strokeEnd", "stroke_end")
+"""Points until which a face stays complete, if its relax is not tied."""
 _RAMPS: Final = {
     "duration": ("end", "start"),
     "rampup": ("attackPeak", "start"),
@@ -61,7 +62,10 @@ def adapt_face(tree: Tree, source: BlockSource) -> list[Fault]:
     for point in _PEAKS:
         if point in tree.attrib:
             rename(tree, point, "attackPeak")
-    drop(tree, *_AFTER_PEAK)
+    for point in _SHOWN:
+        if point in tree.attrib:
+            rename(tree, point, "relax")
+    drop(tree, *_PEAKS, *_SHOWN)
     amount = limit_amount(tree)
     for name, (point, other) in _RAMPS.items():
         seconds = take_number(tree, name, source, 0.0, _LONGEST)

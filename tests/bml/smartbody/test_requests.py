@@ -4,10 +4,11 @@ from reactive_realizer.bml.behaviors import FaceFacs, Gaze
 from reactive_realizer.bml.document import parse
 from reactive_realizer.bml.extensions import Emit, Interrupt
 from reactive_realizer.bml.names import Location
+from reactive_realizer.bml.speech import Speech
 from reactive_realizer.bml.vocabulary import Influence
 from reactive_realizer.limits import Limits
 
-from .reading import block, only, read
+from .reading import block, only
 
 TABLE_1 = """vrAgentBML request Alice Bob SPEECH_24
 <?xml version="1.0" encoding="UTF-8"?>
@@ -119,9 +120,14 @@ def test_a_document_may_declare_the_encoding_that_it_had_before() -> None:
     assert parsed.block is not None
 
 
-def test_marks_with_the_same_id_apart_from_each_other_are_told() -> None:
-    (problem,) = read('<bml><speech id="s"><mark name="a"/>so <mark name="a"/>what</speech></bml>').problems
-    assert problem.fault.code == "duplicate-id"
+def test_of_marks_with_the_same_id_the_first_one_counts() -> None:
+    (parsed,) = parse('<bml id="b"><speech id="s"><mark name="a"/>so <mark name="a"/>what</speech></bml>', Limits())
+    assert not parsed.problems
+    assert parsed.block is not None
+    (speech,) = parsed.block.behaviors
+    assert isinstance(speech, Speech)
+    assert speech.text == "so what"
+    assert [(mark.id, mark.char_index) for mark in speech.marks] == [("a", 0)]
 
 
 def test_behaviors_may_stand_directly_in_an_act() -> None:
