@@ -201,7 +201,8 @@ otherwise the first one |
 | elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
 `blinkemitter` and `breathingemitter` of BMLT with `avgwaitingtime` (s) and without an `end` are read as an
-[`idleChange`](#idlechange) of BLINK_RATE and BREATHING_RATE; their `range` has no effect. Other emitters are left to plug-ins.
+[`idleChange`](#idlechange) of BLINK_RATE and BREATHING_RATE; their `range` has no effect. Other emitters are left to
+plug-ins.
 
 `keyPoses`, `glance`, `release`, `idleChange` and `weightShift` are in the namespace `urn:reactive-realizer:1`
 ([key poses in BML](embrscript.md#key-poses-in-bml)). `murmlgesture` and `murmlface` are in the namespace
@@ -242,7 +243,8 @@ this table causes a warning.
 | `gaze type="AT"`, `gaze modality` | ignored, and `influence`; LEGS means WHOLE |
 | `gaze` without `target` | `target="viewer"` |
 | `face type="FACS" au="..."`, `type="LEXICALIZED" lexeme="..."` | `faceFacs`, `faceLexeme` |
-| `face type="HAPPY"`, and SAD, ANGRY, AFRAID, DISGUSTED, SURPRISED, SCEPTICAL, NEUTRAL | `faceLexeme`: JOY and so on; SCEPTICAL is RAISE_LEFT_BROW |
+| `face type="HAPPY"`, or `SAD`, `ANGRY`, `AFRAID`, `DISGUSTED`, `SURPRISED`, `SCEPTICAL`, `NEUTRAL` | `faceLexeme`: \
+JOY and so on; SCEPTICAL is RAISE_LEFT_BROW |
 | `face stroke_start="..." stroke_end="..."` | `attackPeak`, and `relax` if that is not tied |
 | `face au="1_left"` | `au="1" side="left"` |
 | `lexeme` in a `face` | `faceLexeme` |

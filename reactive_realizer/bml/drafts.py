@@ -26,7 +26,9 @@ _PARTS: Final = {"LOWER": "LEGS", "UPPER": "ARMS"}
 _BODY: Final = {"torso": "WHOLEBODY", "body": "WHOLEBODY", "shoulder": "ARMS"}
 _LEANINGS: Final = {
     "FORWARD": "LEANING_FORWARD",
+    "BODYLEAN": "LEANING_FORWARD",
     "BACKWARD": "LEANING_BACKWARD",
+    "BODYRECLINE": "LEANING_BACKWARD",
     "NEUTRAL": "WHOLEBODY_NEUTRAL",
 }
 _ASIDE: Final = "ASIDE"

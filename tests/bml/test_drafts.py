@@ -75,6 +75,10 @@ WRITTEN: dict[str, tuple[type[Behavior], dict[str, object]]] = {
         Posture,
         {"poses": (Pose(part=PosePart.WHOLEBODY, lexeme="LEANING_FORWARD"),)},
     ),
+    '<torso id="x" lexeme="BodyRecline"/>': (
+        Posture,
+        {"poses": (Pose(part=PosePart.WHOLEBODY, lexeme="LEANING_BACKWARD"),)},
+    ),
     '<body id="x" posture="Sulk"/>': (Posture, {"poses": (Pose(part=PosePart.WHOLEBODY, lexeme="Sulk"),)}),
     '<shoulder id="x" lexeme="UP"/>': (Posture, {"poses": (Pose(part=PosePart.ARMS, lexeme="UP"),)}),
     '<WAIT id="x" duration="1"/>': (Wait, {"duration": 1.0}),
