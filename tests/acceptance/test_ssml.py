@@ -63,7 +63,7 @@ async def test_what_the_voice_cannot_do_is_told_once_and_the_rest_is_spoken() ->
 
 
 async def test_a_voice_without_markup_speaks_the_text_of_the_ssml_and_tells_what_it_left_out() -> None:
-    async with open_pilot() as pilot:
+    async with open_pilot(SceneOptions(voice="captions")) as pilot:
         await say(pilot, 'Take the <mark name="m"/><emphasis>blue</emphasis> one.')
         assert shown(pilot) == "Take the blue one."
         (warning,) = pilot.feedback.of("warningFeedback")

@@ -393,7 +393,8 @@ def test_a_reference_in_a_description_says_more_than_the_lexeme() -> None:
     assert referred("head", 'lexeme="Down_Aside_Right"', "DOWN_ASIDE_RIGHT") == "Down_Aside_Right"
     assert referred("torso", 'lexeme="forward"', "") == "forward"
     assert referred("head", 'lexeme="NOD"', "nod") is None
-    assert referred("torso", 'lexeme="BodyLean"', "BodyLean") is None
+    assert referred("torso", 'lexeme="Sway"', "Sway") is None
+    assert referred("torso", 'lexeme="BodyLean"', "BodyLean") == "BodyLean"
 
 
 DROPPED = {

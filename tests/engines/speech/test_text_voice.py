@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from reactive_realizer.bml.markup import Markup, MarkupKind
 from reactive_realizer.engine.tts import Utterance
 from reactive_realizer.engines.speech.text_voice import TextVoice
 
@@ -56,6 +57,36 @@ def test_a_mark_after_the_last_word_is_at_the_end() -> None:
 def test_an_utterance_has_no_audio_and_no_phonemes() -> None:
     utterance = spoken("hello")
     assert (utterance.audio, utterance.phonemes) == (b"", ())
+
+
+def marked(*markup: Markup) -> Utterance:
+    return TextVoice().synthesize_markup("put the red box", (("red", 8),), None, markup)
+
+
+def test_a_break_is_silence_before_the_next_word() -> None:
+    pause = Markup(MarkupKind.BREAK, 8, 8, "<break>", number=0.7)
+    plain, paused = marked(), marked(pause)
+    assert paused.left_out == ()
+    assert [after.start - before.start for before, after in zip(plain.words, paused.words, strict=True)] == (
+        pytest.approx([0.0, 0.0, 0.7, 0.7])
+    )
+    assert paused.marks["red"] == paused.words[2].start
+
+
+def test_a_break_before_the_first_word_is_kept() -> None:
+    assert marked(Markup(MarkupKind.BREAK, 0, 0, "<break>", number=0.5)).words[0].start == 0.5
+
+
+@pytest.mark.parametrize(("level", "factor"), [("strong", 1.4), ("moderate", 1.2), ("none", 1.0), ("reduced", 0.9)])
+def test_an_emphasized_word_takes_longer(level: str, factor: float) -> None:
+    said = marked(Markup(MarkupKind.EMPHASIS, 12, 15, "<emphasis>", text=level))
+    assert said.duration - said.words[3].start == pytest.approx(factor * (marked().duration - marked().words[3].start))
+
+
+def test_other_markup_is_left_out() -> None:
+    slow = Markup(MarkupKind.RATE, 0, 3, "<prosody rate>", number=0.5)
+    assert marked(slow).left_out == (slow,)
+    assert marked(slow).duration == marked().duration
 
 
 def test_a_text_without_words_takes_no_time() -> None:
