@@ -198,7 +198,10 @@ otherwise the first one |
 | `accompanies="b1"` of `urn:reactive-realizer:1` on `bml` | yes | its behaviors \
 [give way](liveliness.md#accompanying-blocks) to all others, and end with `b1` |
 | other attributes | no | warning `CUSTOM_ATTRIBUTE_NOT_SUPPORTED`; their behavior plays |
-| elements, including those of BMLA and BMLT without a table above | no | warning `CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
+| `setImage`, `addImage`, `addAnimationXML` and `addAnimationDir` of `http://hmi.ewi.utwente.nl/pictureengine` \
+| with the engine `picture` | [characters shown as pictures](pictures.md#the-binding) |
+| other elements, including those of BMLA and BMLT without a table above | no | warning \
+`CUSTOM_BEHAVIOUR_NOT_SUPPORTED` |
 
 `blinkemitter` and `breathingemitter` of BMLT with `avgwaitingtime` (s) and without an `end` are read as an
 [`idleChange`](#idlechange) of BLINK_RATE and BREATHING_RATE; their `range` has no effect. Other emitters are left to

@@ -1,48 +1,65 @@
 """Finds asset files by name."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache, lru_cache
 from itertools import chain
 from pathlib import Path, PurePosixPath
 from stat import S_ISREG
+from typing import NamedTuple
 
 from reactive_realizer.assembly.faults import ForbiddenPath, NoFolder, TwoAssets
 from reactive_realizer.binding.faults import NoAsset
 from reactive_realizer.errors import RealizerError
 
 
+class _Found(NamedTuple):
+    """What a walk has found.
+
+    Attributes:
+        changed: folder -> when an entry of it was last added or removed, ns.
+        files: name -> files with it, in any order.
+        by_suffix: suffix, such as ``.xml`` -> names of files.
+    """
+
+    changed: Mapping[str, int]
+    files: Mapping[str, Sequence[Path]]
+    by_suffix: Mapping[str, Sequence[str]]
+
+
 class AssetIndex:
     """An index of the files of a folder by name; walking the folder for each name would take longer than a tick.
 
-    The folder is walked again when the modification time of any folder in it has changed.
+    The folder is walked again when the modification time of any folder in it has changed. Several threads may use it.
     """
 
     def __init__(self, folder: Path) -> None:
         """Creates an index, which walks the folder: this takes milliseconds, so it is not for the midst of a tick."""
         self._folder = folder
-        self._walk()
+        self._found = self._walk()
 
     def names(self, suffix: str) -> Sequence[str]:
         """The names of the files with a suffix, such as ``.xml``, when the folder was last walked."""
-        return self._by_suffix.get(suffix, ())
+        return self._found.by_suffix.get(suffix, ())
 
     def files(self, name: str) -> Sequence[Path]:
         """The files with a name, in any order. Links to folders are not followed."""
-        if any(_changed(folder) != at for folder, at in self._changed.items()):
-            self._walk()
-        return self._files.get(name, ())
+        found = self._found
+        if any(_changed(folder) != at for folder, at in found.changed.items()):
+            found = self._found = self._walk()
+        return found.files.get(name, ())
 
-    def _walk(self) -> None:
-        self._changed: dict[str, int] = {}
-        self._files: dict[str, list[Path]] = {}
-        self._by_suffix: dict[str, list[str]] = {}
+    def _walk(self) -> _Found:
+        changed: dict[str, int] = {}
+        found: dict[str, list[Path]] = {}
+        by_suffix: dict[str, list[str]] = {}
         for folder, _, files in os.walk(self._folder):
-            self._changed[folder] = _changed(folder)
+            changed[folder] = _changed(folder)
             for name in files:
-                self._files.setdefault(name, []).append(Path(folder, name))
-        for name in self._files:
-            self._by_suffix.setdefault(PurePosixPath(name).suffix, []).append(name)
+                found.setdefault(name, []).append(Path(folder, name))
+        for name in found:
+            by_suffix.setdefault(PurePosixPath(name).suffix, []).append(name)
+        return _Found(changed, found, by_suffix)
 
 
 def _changed(folder: str) -> int:
@@ -102,13 +119,19 @@ class Assets:
     def folder(self, name: str) -> list[str]:
         """The names of the files directly in a folder, as written or without its leading folders; none without one.
 
+        A file is left out if its name in the folder leads to another one, in an earlier root.
+
         Raises:
             RealizerError: "forbidden-path".
         """
         for root, path in self._places(name):
-            if path.is_dir() and path.resolve().is_relative_to(root.resolve()):
-                with os.scandir(path) as entries:
-                    return [entry.name for entry in entries if entry.is_file()]
+            try:
+                if path.resolve().is_relative_to(root.resolve()):
+                    with os.scandir(path) as entries:
+                        files = [entry.name for entry in entries if entry.is_file()]
+                    return [file for file in files if self(f"{name}/{file}") == (path / file).resolve()]
+            except (OSError, ValueError):  # it does not exist, is no folder, or its name is not valid
+                continue
         return []
 
     def _all_places(self, name: str) -> list[tuple[Path, Path]]:

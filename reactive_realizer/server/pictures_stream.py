@@ -16,13 +16,13 @@ class PicturesStream:
         self._sent: dict[str, tuple[str, ...]] = {}
 
     def subscribe(self, listener: Callable[[str], None]) -> Callable[[], None]:
-        """Gives a listener the messages, first about all characters with pictures. The returned function ends that."""
+        """Gives a listener the messages, first about all characters. The returned function ends that."""
         self._sent.clear()
         return self._watch.subscribe(listener)
 
     def _publish(self, frames: Mapping[str, Frame]) -> None:
         for id_, frame in frames.items():
-            if frame.pictures != self._sent.get(id_, ()):
+            if frame.pictures != self._sent.get(id_):
                 self._sent[id_] = frame.pictures
                 message = {"type": "pictures", "time": round(frame.time, 6), "character": id_, "files": frame.pictures}
                 self._watch.publish(encode(message))

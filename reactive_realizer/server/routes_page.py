@@ -2,6 +2,7 @@
 
 import asyncio
 from io import BytesIO
+from mimetypes import guess_type
 from pathlib import Path
 from typing import Final
 
@@ -60,9 +61,10 @@ async def picture(request: web.Request) -> web.StreamResponse:
     """A picture that shows a character in place of its body."""
     name = request.match_info["name"]
     path = await asyncio.to_thread(request.app[LIVE].scene.assets, name)
-    if not is_picture(path.name):
+    if not is_picture(name):
         raise RealizerError(NoAsset(name=name))
-    return web.FileResponse(path, headers=_CHECKED)
+    kind, _ = guess_type(name)
+    return web.FileResponse(path, headers={"Content-Type": kind or "application/octet-stream", **_CHECKED})
 
 
 @routes.get("/audio/{clip}.wav")

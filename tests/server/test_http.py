@@ -113,7 +113,7 @@ async def test_the_capabilities_list_elements_and_lexemes(on_air: Open) -> None:
         assert all(word in capabilities["lexemes"][element] for element, word in lexemes.items())
         assert "alice" in capabilities["targets"]
         silent = {"stretch": None, "volume": volume, "rate": None, "pitch": None}
-        assert capabilities["tts"] == {"sound": False, "languages": [], "markup": [], **silent}
+        assert capabilities["tts"] == {"sound": False, "languages": [], "markup": ["break", "emphasis"], **silent}
 
 
 async def test_the_capabilities_list_anticipators_and_their_events(on_air: Open) -> None:

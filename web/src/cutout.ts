@@ -11,11 +11,11 @@ const ORDER = 2;
 
 /** Has the alpha of meshes with cut-out materials, such as hair, fade out instead of ending in hard texels. */
 export function softenCutouts(meshes: Mesh[]): void {
-  for (const mesh of meshes) {
-    if (cutouts(mesh).length === 0) continue;
-    giveTangents(mesh);
-    mesh.parent?.add(fringe(mesh));
-  }
+  const cut = meshes.filter((mesh) => cutouts(mesh).length > 0);
+  const guessed = new Set(cut.filter(giveTangents).flatMap(cutouts));
+  // The loader has turned the scale around for guessed tangents. Meshes may share a material.
+  for (const material of guessed) if (material instanceof MeshStandardMaterial) material.normalScale.y *= -1;
+  for (const mesh of cut) mesh.parent?.add(fringe(mesh));
 }
 
 /** The materials of a mesh that are cut out by alpha. */
@@ -50,12 +50,14 @@ function blended(material: Material): Material {
   return soft;
 }
 
-/** Without tangents, those of the pixels of narrow triangles are guesses, and show as bright and dark dots. */
-function giveTangents(mesh: Mesh): void {
+/**
+ * Computes the tangents of a mesh without them; whether it did. Otherwise, those of the pixels of narrow triangles are
+ * guesses, and show as bright and dark dots.
+ */
+function giveTangents(mesh: Mesh): boolean {
   const { index, attributes } = mesh.geometry;
   const { position, normal, uv, tangent } = attributes;
-  if (!index || !position || !normal || !uv || tangent) return;
+  if (!index || !position || !normal || !uv || tangent) return false;
   mesh.geometry.computeTangents();
-  // The loader has turned the scale around for guessed tangents.
-  for (const material of cutouts(mesh)) if (material instanceof MeshStandardMaterial) material.normalScale.y *= -1;
+  return true;
 }

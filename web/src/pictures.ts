@@ -1,13 +1,18 @@
 import type { Pictures as PicturesMessage } from "./protocol";
 
+/** Most messages kept of a character: a page that is not drawn, in a hidden tab, does not show them. */
+const CAPACITY = 100;
+
 /** The pictures that show characters in place of their bodies, as messages announce them. */
 export class Pictures {
   /** Messages by character, in the order of time; the first one may have come. */
   private readonly announced = new Map<string, PicturesMessage[]>();
 
   handle(message: PicturesMessage): void {
-    const before = this.announced.get(message.character) ?? [];
-    this.announced.set(message.character, [...before, message]);
+    const messages = this.announced.get(message.character) ?? [];
+    messages.push(message);
+    if (messages.length > CAPACITY) messages.shift();
+    this.announced.set(message.character, messages);
   }
 
   /** The files of each character at a realizer time, s, from the lowest to the uppermost. Times must not go back. */

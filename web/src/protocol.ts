@@ -419,7 +419,7 @@ export interface Standing {
   heading: number;
 }
 /**
- * The pictures that show a character in place of its body, from the lowest to the uppermost, until the next message about it; GET /pictures/FILE. Sent when they change to clients that request the stream pictures, first those of all characters that have some.
+ * The pictures that show a character in place of its body, from the lowest to the uppermost, until the next message about it; GET /pictures/FILE. Without any, it is shown by its body. Sent to clients that request the stream pictures: first those of all characters, then what has changed.
  */
 export interface Pictures {
   type: "pictures";

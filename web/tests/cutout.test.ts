@@ -53,3 +53,13 @@ it("gives hair tangents, for which the relief is turned around", () => {
   expect(hair.geometry.getAttribute("tangent").count).toBe(4);
   expect((hair.material as MeshStandardMaterial).normalScale.y).toBe(-1);
 });
+
+it("turns around the relief of a material once, however many meshes share it", () => {
+  const shared = new MeshStandardMaterial({ alphaTest: 0.4 });
+  const meshes = [new Mesh(new PlaneGeometry(), shared), new Mesh(new PlaneGeometry(), shared)];
+  const avatar = new Group().add(...meshes);
+  softenCutouts(meshes);
+  const drawn = avatar.children.filter((child): child is Mesh => child instanceof Mesh);
+  const scales = drawn.map(({ material }) => (material as MeshStandardMaterial).normalScale.y);
+  expect(scales).toEqual([-1, -1, -1, -1]);
+});

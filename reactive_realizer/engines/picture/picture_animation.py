@@ -29,6 +29,10 @@ _MOST_FRAMES = 1000
 """Limit of the pictures of a sequence."""
 
 
+_LONGEST = 3600.0
+"""Limit of the duration of a sequence, s."""
+
+
 class NotAPicture(CreationFault):
     """A file that browsers do not show as a picture."""
 
@@ -131,6 +135,8 @@ def read_animation(path: Path) -> PictureAnimation:
     folder = attribute(root, "picturePath").strip("/")
     files = tuple("/".join(filter(None, (folder, attribute(frame, "imgsrc")))) for frame in frames)
     ends = tuple(accumulate(map(_duration, frames)))
+    if ends[-1] > _LONGEST:
+        raise asset_error(root, f"it lasts {ends[-1]:g} s; the limit is {_LONGEST:g} s")
     return PictureAnimation(files, ends, _points(root, ends))
 
 

@@ -56,7 +56,7 @@ class TextVoice:
     ) -> Utterance:
         """The utterance of a text with breaks before its words and words that are emphasized, which take longer."""
         words = _timed(text, markup)
-        duration = words[-1].start + _length(words[-1].first, words[-1].last, markup) if words else 0.0
+        duration = _end(words[-1], len(text), markup) if words else 0.0
         unmarked = Utterance(text, duration, words, MappingProxyType({}))
         times = {name: unmarked.time_of_character(index) for name, index in marks}
         left_out = tuple(each for each in markup if each.kind not in _FOLLOWED)
@@ -72,6 +72,11 @@ def _timed(text: str, markup: Sequence[Markup]) -> tuple[Word, ...]:
         start += _length(first, last, markup) + _CHARACTER + _pause(text[last:following])
         before = first
     return tuple(words)
+
+
+def _end(last: Word, length: int, markup: Sequence[Markup]) -> float:
+    """Time at which the last word and the breaks after it end, s, in a text with some number of characters."""
+    return last.start + _length(last.first, last.last, markup) + _silence(last.first, length, markup)
 
 
 def _length(first: int, last: int, markup: Sequence[Markup]) -> float:

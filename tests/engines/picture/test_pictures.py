@@ -113,6 +113,17 @@ def warned(pilot: RealizerPilot) -> list[tuple[str, str]]:
     return [(message.id, message.text) for message in pilot.feedback.of("warningFeedback")]
 
 
+async def test_a_picture_of_a_folder_that_another_one_hides_is_left_out(assets: Path, tmp_path: Path) -> None:
+    first = tmp_path / "first"
+    first.mkdir()
+    (first / "smile.png").touch()
+    async with open_pilot(SceneOptions(assets / "human.toml", "text", (first, assets))) as pilot:
+        pilot.watch()
+        pilot.block("b", f'<pe:addAnimationDir {PE} id="d" directoryName="drawn"/>')
+        await pilot.advance(2)
+    assert [files for _, files in shown(pilot)] == [("base",), ("left",), ("right",), ("up",), ()]
+
+
 def lasting(element: str, file: str) -> str:
     return f"""<PictureUnitSpec type="{element}">
       <parameterdefaults><parameterdefault name="fileName" value="{file}"/></parameterdefaults>
@@ -159,6 +170,7 @@ async def test_what_accompanies_speech_and_has_no_pictures_is_left_out_silently(
         (f'<pe:addImage {PE} id="x" filePath="drawn" fileName="up.png" layer="nan"/>', "must be a number, not 'nan'"),
         (f'<pe:addAnimationDir {PE} id="x" directoryName="nowhere"/>', "no pictures in the folder 'nowhere'"),
         (f'<pe:addAnimationXML {PE} id="x" fileName="pictures.xml"/>', "should begin with <xmlanim>"),
+        (f'<pe:addAnimationDir {PE} id="x" directoryName="{"a" * 300}"/>', "no pictures in the folder 'aaa"),
         ('<gesture id="x" lexeme="BOW"/>', "no entry of the picture binding for <gesture> fits"),
     ],
 )
@@ -187,6 +199,7 @@ async def test_pictures_that_cannot_be_shown_are_named_and_the_rest_plays(
             '<sync type="ready"/><frame imgsrc="up.png" duration="1"/><sync type="ready"/>',
             "a second sync with type='ready'",
         ),
+        ('<frame imgsrc="up.png" duration="1e308"/>' * 2, "it lasts inf s; the limit is 3600 s"),
         ('<frame imgsrc="up.png" duration="0.001"/>' * 1001, "has more than 1000 pictures"),
     ],
 )

@@ -73,6 +73,11 @@ def test_a_break_is_silence_before_the_next_word() -> None:
     assert paused.marks["red"] == paused.words[2].start
 
 
+def test_a_break_after_the_last_word_is_silence_before_the_end() -> None:
+    pause = Markup(MarkupKind.BREAK, 15, 15, "<break>", number=2.0)
+    assert marked(pause).duration == pytest.approx(marked().duration + 2.0)
+
+
 def test_a_break_before_the_first_word_is_kept() -> None:
     assert marked(Markup(MarkupKind.BREAK, 0, 0, "<break>", number=0.5)).words[0].start == 0.5
 

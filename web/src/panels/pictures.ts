@@ -1,5 +1,8 @@
 import { create, element } from "../dom";
 
+/** Most pictures of a character that stay loaded. */
+const MOST = 300;
+
 /** Pictures over the scene, those of several characters beside each other. */
 export class PicturesPanel {
   private readonly holder = element("pictures", HTMLElement);
@@ -60,6 +63,17 @@ class PictureFigure {
     await Promise.all(this.shown.map((file) => this.picture(file).decode()));
   }
 
+  /** Removes the picture that is hidden and was loaded first, if there are too many. */
+  private forgetOne(): void {
+    if (this.pictures.size <= MOST) return;
+    for (const [file, picture] of this.pictures) {
+      if (this.shown.includes(file)) continue;
+      picture.remove();
+      this.pictures.delete(file);
+      return;
+    }
+  }
+
   private picture(file: string): HTMLImageElement {
     let picture = this.pictures.get(file);
     if (picture === undefined) {
@@ -68,6 +82,7 @@ class PictureFigure {
       picture.src = `pictures/${file.split("/").map(encodeURIComponent).join("/")}`;
       this.pictures.set(file, picture);
       this.object.append(picture);
+      this.forgetOne();
     }
     return picture;
   }
