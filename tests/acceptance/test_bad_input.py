@@ -72,7 +72,7 @@ REFUSED = [
     (b"\x00\xff\xfe\x01", "bml", "PARSING_FAILURE", ""),
     ('<bml id="b" characterId="carol"/>', "b", "NO_SUCH_TARGET", "alice"),
     ('<bml id="b" character="Prudence"/>', "b", "NO_SUCH_TARGET", "no character 'Prudence'"),
-    ('<act><bml id="b" agent="Poppy"/></act>', "b", "NO_SUCH_TARGET", "no character 'Poppy'"),
+    ('<act><bml id="b" character="Poppy"/></act>', "b", "NO_SUCH_TARGET", "no character 'Poppy'"),
 ]
 
 
