@@ -281,8 +281,16 @@ class UnitLifecycle:
                 return
 
     def _keep_order(self, units: Iterable[PlanUnit]) -> bool:
-        begun = (unit for unit in units if unit.begun)
-        return any(unit.keep_order(partial(self._part, unit, overtaken=True)) for unit in begun)
+        """Have points of units that have begun not come after later ones; whether any of them did."""
+        for unit in units:
+            fixed = {point.peg for point in unit.ahead() if point.peg.pinned}
+            if unit.begun and unit.keep_order(partial(self._part, unit, overtaken=True)):
+                for peg in {point.peg for point in unit.ahead() if point.peg.pinned} - fixed:
+                    # It moved with a later point, which may have lain in the past.
+                    if peg.value is not None and peg.value < self._board.previous:
+                        peg.pin(self._board.time)
+                return True
+        return False
 
     def _hold_back(self, units: Iterable[PlanUnit]) -> bool:
         """Have points not come before their bodies can reach them; whether any of them did."""

@@ -19,5 +19,11 @@ async def test_a_stroke_that_follows_its_start_is_not_hurried_by_what_its_start_
     assert (await examine(random_session(Random(314454)), "smartbody")).breaches == []
 
 
+@pytest.mark.parametrize("strategy", ["convex", "embr"])
+async def test_points_that_move_with_a_later_one_in_the_past_come_in_the_present_tick(strategy: str) -> None:
+    """In this session, a gaze and a pointing that start relative to each other begin late, one because of the other."""
+    assert (await examine(random_session(Random(300203)), strategy)).breaches == []
+
+
 def test_a_seed_always_gives_the_same_session() -> None:
     assert random_session(Random(5)) == random_session(Random(5)) != random_session(Random(6))
