@@ -34,6 +34,7 @@ def keep_order(points: Sequence[SyncPoint], needs: Sequence[float], part: Callab
     moved = False
     later: list[_Later] = []
     soonest = inf  # of all of these: a speech may have hundreds of points
+    bound = inf  # the soonest of those that are fixed
     for index in range(len(points) - 1, -1, -1):
         point, need = points[index], needs[index]
         if point.fired:
@@ -58,7 +59,10 @@ def keep_order(points: Sequence[SyncPoint], needs: Sequence[float], part: Callab
             part(point)
             point.peg.keep_before(successor.point.peg, successor.distance)
             time, moved = successor.latest, True
-        later.append(_Later(time, point, 0.0))
+        fixed = point.peg.pinned or time > bound - RESOLUTION
+        if fixed:
+            bound = min(bound, time)
+        later.append(_Later(time, point, 0.0, fixed))
         soonest = min(soonest, time)
     return moved
 
@@ -81,17 +85,21 @@ def needs_after(points: Sequence[SyncPoint], shortest: Sequence[float]) -> list[
 
 
 class _Later(NamedTuple):
-    """A later point, as earlier ones see it: they come no later than at a distance (s) from it."""
+    """A later point, as earlier ones see it: they come no later than at a distance (s) from it.
+
+    A fixed one cannot wait: it is pinned, or comes with one that is.
+    """
 
     latest: GlobalTime
     point: SyncPoint
     distance: float
+    fixed: bool
 
     def ahead(self, need: float) -> "_Later":
-        """The same point, as seen from before a phase that needs some time (s); a pinned one cannot wait for that."""
-        if self.point.peg.pinned:
+        """The same point, as seen from before a phase that needs some time (s); a fixed one cannot wait for that."""
+        if self.fixed or not need:
             return self
-        return _Later(GlobalTime(self.latest - need), self.point, self.distance - need) if need else self
+        return self._replace(latest=GlobalTime(self.latest - need), distance=self.distance - need)
 
     def yields_to(self, peg: TimePeg) -> bool:
         """Whether it can wait for a peg: it moves with that, and no constraint names it."""

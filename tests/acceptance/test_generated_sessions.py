@@ -25,5 +25,10 @@ async def test_points_that_move_with_a_later_one_in_the_past_come_in_the_present
     assert (await examine(random_session(Random(300203)), strategy)).breaches == []
 
 
+async def test_a_stroke_does_not_push_its_end_beyond_a_point_that_cannot_wait() -> None:
+    """In this session, a gesture relaxes at a time that is left of a dropped one, too soon after its stroke."""
+    assert (await examine(random_session(Random(301374)), "convex")).breaches == []
+
+
 def test_a_seed_always_gives_the_same_session() -> None:
     assert random_session(Random(5)) == random_session(Random(5)) != random_session(Random(6))
