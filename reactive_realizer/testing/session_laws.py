@@ -39,7 +39,7 @@ _TICK, _ROUNDING = 1.0 / RATE, 2e-6
 _LONGEST = 120.0
 """Time after the last input in which a session comes to rest, s."""
 
-_SLOWEST_TICKS = 100
+_SLOWEST_TICKS = 200
 """Ticks in which a REPLACE of each character is planned, however little is planned in each."""
 
 
