@@ -14,7 +14,7 @@ from reactive_realizer.errors import RealizerError
 
 
 class _Found(NamedTuple):
-    """What a walk has found.
+    """The files and folders that a walk found.
 
     Attributes:
         changed: folder -> when an entry of it was last added or removed, ns.

@@ -8,9 +8,11 @@ from lxml import etree
 
 from reactive_realizer.binding.asset_file import XmlElement, asset_error, attribute, read_xml
 from reactive_realizer.binding.unit_spec import UnitSpec
+from reactive_realizer.binding.unit_specs import UnitSpecs
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import BML
 from reactive_realizer.errors import RealizerError
+from reactive_realizer.file_cache import remembered
 from reactive_realizer.limits import Limits
 
 
@@ -29,18 +31,23 @@ def _numbers(parameters: Mapping[str, str]) -> Iterator[tuple[str, float]]:
             yield name, value
 
 
-def read_specs(path: Path, root: str, unit: str) -> Iterator[UnitSpec]:
-    """Yield the entries of a file, in order.
+@remembered
+def read_unit_specs(root: str, unit: str, *paths: Path) -> UnitSpecs:
+    """Read binding files of faces or pictures (thesis 8.6.1). Entries of earlier files come first.
 
     Args:
-        path: of the file.
-        root: required name of the root element.
+        root: required name of the root elements.
         unit: name of the elements of units; those of entries end in Spec.
+        paths: of the files.
 
     Raises:
         RealizerError: "bad-asset", with file, line and element.
-        OSError: the file cannot be read.
+        OSError: a file cannot be read.
     """
+    return UnitSpecs(tuple(spec for path in paths for spec in _specs(path, root, unit)))
+
+
+def _specs(path: Path, root: str, unit: str) -> Iterator[UnitSpec]:
     inside = ("constraints", "parametermap", "parameterdefaults", unit)
     for element in read_xml(path, root):
         if element.tag != f"{unit}Spec":

@@ -23,7 +23,7 @@ _SHARE = 0.5
 """Share of this distance that an arm may approach: it is a first-order estimate (`Flesh.contacts`)."""
 
 _SLOW = 0.002
-"""How far the joints may carry an arm in a frame for which it is worth measuring, m."""
+"""Largest movement of an arm in a frame, m, up to which measuring its distance saves time."""
 
 _Turns = tuple[Quat, ...]
 """Rotations of the joints that move an arm or flesh."""

@@ -8,7 +8,7 @@ from random import Random
 from types import MappingProxyType
 from typing import Any
 
-from reactive_realizer.binding.face_binding import FaceBinding
+from reactive_realizer.binding.spec_reader import read_unit_specs
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.behaviors import Face, FaceFacs, FaceLexeme, FaceShift
 from reactive_realizer.bml.extensions import FACES, FaceKeyframe, FaceMorph, FacePlutchik
@@ -65,7 +65,8 @@ class FaceEngine(DefaultEngine):
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/face")
-        self._library = FaceLibrary(FaceBinding.read(*context.bindings["face"]), FaceShapes.of(context))
+        binding = read_unit_specs("facebinding", "FaceUnit", *context.bindings["face"])
+        self._library = FaceLibrary(binding, FaceShapes.of(context))
         self._asset = context.asset
         self._graph = context.graph
         self._lip_sync = context.lip_sync

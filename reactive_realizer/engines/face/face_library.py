@@ -4,8 +4,8 @@ import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from reactive_realizer.binding.face_binding import FaceBinding
 from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
+from reactive_realizer.binding.unit_specs import UnitSpecs
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.engine.lexicon import LexiconEntry
 from reactive_realizer.engines.face.expressions import NoFace
@@ -37,7 +37,7 @@ class FaceLibrary:
         shapes: the faces of its avatar.
     """
 
-    def __init__(self, binding: FaceBinding, shapes: FaceShapes) -> None:
+    def __init__(self, binding: UnitSpecs, shapes: FaceShapes) -> None:
         self.binding = binding
         self.shapes = shapes
         self._lexemes = {

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterable, Iterator
 from math import inf
 
-from reactive_realizer.binding.picture_binding import PictureBinding
+from reactive_realizer.binding.spec_reader import read_unit_specs
 from reactive_realizer.bml.behavior import Behavior
 from reactive_realizer.clock.ticker import Tick
 from reactive_realizer.clock.units import GlobalTime
@@ -22,7 +22,7 @@ class PictureEngine(DefaultEngine):
 
     def __init__(self, context: EngineContext) -> None:
         super().__init__(f"{context.character}/picture")
-        binding = PictureBinding.read(*context.bindings["picture"])
+        binding = read_unit_specs("picturebinding", "PictureUnit", *context.bindings["picture"])
         self._library = PictureLibrary(binding, context.asset, context.folder)
         self.behaviors = self._library.behaviors()
         self._lip_sync = context.lip_sync

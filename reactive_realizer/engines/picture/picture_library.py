@@ -6,8 +6,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from reactive_realizer.binding.picture_binding import PictureBinding
 from reactive_realizer.binding.unit_spec import UnitSpec, behavior_attributes
+from reactive_realizer.binding.unit_specs import UnitSpecs
 from reactive_realizer.bml.behavior import Behavior, ForeignBehavior
 from reactive_realizer.bml.elements import ELEMENTS
 from reactive_realizer.bml.names import BML, OWN
@@ -90,7 +90,7 @@ class PictureLibrary:
     """
 
     def __init__(
-        self, binding: PictureBinding, asset: Callable[[str], Path], folder: Callable[[str], Sequence[str]]
+        self, binding: UnitSpecs, asset: Callable[[str], Path], folder: Callable[[str], Sequence[str]]
     ) -> None:
         self._binding = binding
         self._asset = asset

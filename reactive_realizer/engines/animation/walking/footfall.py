@@ -1,4 +1,4 @@
-"""Where the feet of a walking figure come down, and how long they stand."""
+"""Chooses the prints of a walking figure's feet, and how long each foot stands."""
 
 import math
 
@@ -13,13 +13,13 @@ _CLOSE = 0.055
 """Distance of an ankle from the middle in walking ahead, m: the prints are nearer to a line than at rest."""
 
 _ROLLING = 0.08
-"""How much nearer a foot comes down to the hips than it leaves them in walking ahead, m: its sole rolls meanwhile."""
+"""Distance by which a foot lands closer to the hips than it leaves them in walking ahead, m, because its sole rolls."""
 
 _HIP_TURN = 0.25
 """Way of a foot at the side of a figure that turns, m/rad."""
 
 _LEAD = 0.6
-"""How far a foot goes ahead in a step aside, as a share of the way of the figure from step to step."""
+"""Distance by which a foot leads in a side step, relative to the distance that the figure moves in a step."""
 
 _WORTH = 0.1
 """A foot does not step to a print that is nearer than this, m, as long as the figure walks on."""
@@ -28,7 +28,7 @@ _FURTHEST, _FURTHEST_RUNNING = 0.75, 0.62
 """Distance to which a standing foot is left behind in a step of the other one, relative to the reach of its leg."""
 
 _MOST_TURNED = 1.0
-"""How far a figure turns away from a standing foot meanwhile, rad."""
+"""Largest turn of a figure relative to its standing foot, rad."""
 
 _PARTS = tuple(part / 20 for part in range(20, 9, -1))
 """Parts of a step that are tried for that: a figure that speeds up or turns takes shorter steps."""
